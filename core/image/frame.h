@@ -1,0 +1,63 @@
+#pragma once
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/camera/camera.h"
+#include "core/image/plane.h"
+#include "core/image/role.h"
+#include "core/image/window.h"
+
+namespace aftershade {
+
+/// Channels that an effect changes together, such as the beauty's R, G, B and A: scene-linear, premultiplied.
+struct Layer {
+  std::string name;                   ///< "" for the beauty, else the layer's name in the file
+  std::vector<std::string> channels;  ///< full channel names in the file, one a plane
+  std::vector<Plane> planes;          ///< all of the frame's window; 0 where the file has no pixel
+  int alpha = -1;                     ///< index of the alpha plane, or -1
+  int part = 0;                       ///< the part of the file that holds it
+  bool receives_ao = false;
+  bool receives_blur = false;
+  bool is_beauty = false;
+};
+
+/// One view of one frame: what effects read (roles), what they change (layers), what they add (added).
+/// All planes cover `window`; index (0, 0) is absolute pixel (window.min_x, window.min_y). Effects align frames by
+/// absolute coordinates, because windows move.
+struct Frame {
+  int number = 0;
+  std::string view;     ///< "" when the file has no views
+  Window window;        ///< union of the data windows of the parts that hold roles and layers
+  Window display;
+  float pixel_aspect = 1;  ///< width / height of a pixel
+  std::optional<Camera> camera;
+  std::optional<float> shutter_angle_deg;  ///< the header's shutterAngle: 360 exposes the whole frame interval
+  std::array<std::vector<Plane>, kRoleCount> roles;
+  std::vector<Layer> layers;
+  std::map<std::string, Plane> added;  ///< new channels by name without view ("AO", "aftershade.mask"); half in the file
+
+  bool has(Role role) const { return !roles[static_cast<size_t>(role)].empty(); }
+  std::vector<Plane>& planes(Role role) { return roles[static_cast<size_t>(role)]; }
+  const std::vector<Plane>& planes(Role role) const { return roles[static_cast<size_t>(role)]; }
+  const Plane& depth() const { return planes(Role::depth).at(0); }
+};
+
+/// Where frames come from: files, or memory in tests.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+  /// The frame with these roles (those it has of them) and, if asked, its layers; nullopt when there is no such frame.
+  virtual std::optional<Frame> load(int number, const std::string& view, RoleSet roles, bool with_layers) = 0;
+};
+
+/// Where finished frames go: every view of one frame at once.
+class FrameSink {
+ public:
+  virtual ~FrameSink() = default;
+  virtual void write(int number, const std::vector<Frame>& views) = 0;
+};
+
+}  // namespace aftershade

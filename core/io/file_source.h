@@ -1,0 +1,85 @@
+#pragma once
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/image/frame.h"
+#include "core/io/camera_attributes.h"
+#include "core/io/exr_writer.h"
+#include "core/io/profile.h"
+#include "core/io/roles.h"
+#include "core/io/sequence.h"
+
+namespace aftershade::io {
+
+/// Where the user puts a role in another sequence: --role depth=depth.####.exr
+struct Sibling {
+  Role role;
+  Sequence sequence;
+};
+
+/// Everything that turns files into canonical frames, resolved and validated before frame 1.
+struct SourceOptions {
+  Sequence sequence;
+  Profile profile;
+  std::map<std::string, std::string> channel_overrides;  ///< role name -> channel names, comma separated
+  std::vector<Sibling> siblings;
+  std::optional<DepthKind> depth_kind;                    ///< overrides the profile
+  std::optional<double> near_plane, far_plane;            ///< stored units; needed by device depth
+  double metres_per_unit = 1;
+  std::shared_ptr<const CameraFile> camera_file;
+  std::optional<double> fov_deg;                          ///< horizontal; a camera without position
+  std::vector<std::string> ao_layers, blur_layers;        ///< layer names; empty: the beauty. "beauty" names the beauty
+  bool nan_is_error = false;
+  ReadLimits limits;
+};
+
+/// Counts of pixels that are no numbers, per channel name.
+struct NanReport {
+  std::map<std::string, int64_t> nan, infinite;
+};
+
+/// Frames from EXR files. Checks each header against the first frame's (display window, channels, pixel aspect: Error(data)
+/// with frame and both values). Converts depth, normals, velocity and camera to canonical form; NaN and Inf colours stay in
+/// the layers, counted.
+class FileSource final : public FrameSource {
+ public:
+  explicit FileSource(SourceOptions options);
+  ~FileSource() override;
+  std::optional<Frame> load(int number, const std::string& view, RoleSet roles, bool with_layers) override;
+
+  /// What the first frame shows; views, roles and layers are those of the whole sequence.
+  const FileInfo& info() const;
+  std::vector<std::string> views() const;
+  const std::vector<RoleBinding>& roles(const std::string& view) const;
+  const std::vector<ColorBinding>& layers(const std::string& view) const;
+  RoleSet available(const std::string& view) const;
+
+  /// Called once per loaded frame that has NaN or Inf in a channel.
+  std::function<void(int frame, const NanReport&)> on_nan;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Frames to EXR files: the source frame's file with changed layers and added channels (write_exr).
+struct SinkOptions {
+  WriteOptions write;
+  std::function<std::string(int)> path;                    ///< output path of a frame
+  std::function<void(int, const std::string&)> on_note;    ///< notes of write_exr
+};
+class FileSink final : public FrameSink {
+ public:
+  FileSink(const Sequence& sources, SinkOptions options);
+  void write(int number, const std::vector<Frame>& views) override;
+
+ private:
+  const Sequence& sources_;
+  SinkOptions options_;
+};
+
+}  // namespace aftershade::io

@@ -1,0 +1,27 @@
+#pragma once
+#include <string_view>
+#include <variant>
+
+#include "core/ao/apply_ao.h"
+#include "core/ao/scalable_ao.h"
+#include "core/filter/bilateral_blur.h"
+#include "core/filter/bilateral_upsample.h"
+#include "core/motionblur/scalable_blur.h"
+#include "core/temporal/selective_temporal.h"
+
+namespace aftershade::preset {
+
+/// THE list of methods. A method is added by writing its files and putting its parameter struct here (and its stage in
+/// core/pipeline, which the compiler then asks for); JSON, --set, help, manual, schema and the property tests loop over it.
+using StageParams = std::variant<ao::ScalableAoParams, filter::BilateralBlurParams, filter::BilateralUpsampleParams,
+                                 temporal::SelectiveTemporalParams, ao::ApplyAoParams, motionblur::ScalableBlurParams>;
+
+/// Calls `visit(std::type_identity<Params>{})` for every method in the list's order.
+template <class Visit>
+void for_each_method(Visit&& visit) {
+  [&]<size_t... I>(std::index_sequence<I...>) {
+    (visit(std::type_identity<std::variant_alternative_t<I, StageParams>>{}), ...);
+  }(std::make_index_sequence<std::variant_size_v<StageParams>>{});
+}
+
+}  // namespace aftershade::preset

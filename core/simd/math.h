@@ -1,0 +1,56 @@
+#pragma once
+#include "core/simd/lanes.h"
+
+/// Functions of pixel code that libm must not provide (its results differ between machines): short polynomials in
+/// plain multiplies and adds, with domain and largest error stated; tests/simd measures them.
+namespace aftershade::lanes {
+
+/// 2^x for x in [-126, 126]; below -126 the result is 0. Relative error below 2.5e-7.
+/// x = n + f, f in [-0.5, 0.5]; 2^f by the Taylor series of exp(f ln 2) to the sixth power.
+inline Float exp2(Float x) {
+  const Float clamped = clamp(x, -126.0F, 126.0F);
+  const Float n = round(clamped);
+  const Float f = clamped - n;
+  Float p = 1.5403530e-4F;      // (ln 2)^6 / 6!
+  p = p * f + 1.3333558e-3F;    // (ln 2)^5 / 5!
+  p = p * f + 9.6181291e-3F;    // (ln 2)^4 / 4!
+  p = p * f + 5.5504109e-2F;    // (ln 2)^3 / 3!
+  p = p * f + 2.4022651e-1F;    // (ln 2)^2 / 2!
+  p = p * f + 6.9314718e-1F;    // ln 2
+  p = p * f + 1.0F;
+  const Float scale = float_of_bits((to_int(n) + Int(127)) << 23);
+  return select(x < -126.0F, Float(0.0F), p * scale);
+}
+
+/// sin(2 pi t) and cos(2 pi t), t in turns, |t| < 2^22. Absolute error below 4e-7.
+/// Reduced to a quarter turn around 0; Taylor series to the ninth and tenth power.
+struct SinCos {
+  Float sin, cos;
+};
+inline SinCos sincos_turns(Float t) {
+  const Float quarter = round(t * 4.0F);
+  const Float a = (t - quarter * 0.25F) * 6.2831853F;  // |a| <= pi/4
+  const Float a2 = a * a;
+  Float s = 2.7557319e-6F;
+  s = s * a2 - 1.9841270e-4F;
+  s = s * a2 + 8.3333333e-3F;
+  s = s * a2 - 1.6666667e-1F;
+  s = a + a * (a2 * s);
+  Float c = -2.7557319e-7F;
+  c = c * a2 + 2.4801587e-5F;
+  c = c * a2 - 1.3888889e-3F;
+  c = c * a2 + 4.1666667e-2F;
+  c = c * a2 - 0.5F;
+  c = 1.0F + a2 * c;
+  const Int q = to_int(quarter) & Int(3);
+  const Mask swap = (q & Int(1)) == Int(1);
+  const Float sine = select(swap, c, s), cosine = select(swap, s, c);
+  const Mask negative_sin = q >= Int(2);
+  const Mask negative_cos = (q == Int(1)) | (q == Int(2));
+  return {select(negative_sin, -sine, sine), select(negative_cos, -cosine, cosine)};
+}
+
+/// floor(log2(x)) for finite x >= 2^-126: the exponent of the float.
+inline Int floor_log2(Float x) { return ((bits_of(x) >> 23) & Int(255)) - Int(127); }
+
+}  // namespace aftershade::lanes

@@ -1,0 +1,38 @@
+#pragma once
+#include <optional>
+
+#include "core/camera/camera.h"
+#include "core/image/plane.h"
+#include "core/image/window.h"
+
+namespace aftershade::temporal {
+
+/// Where each pixel's surface was one frame before. x, y: absolute pixel coordinates (centre of pixel (i,j) is
+/// (i+0.5, j+0.5)); depth: the planar depth in metres it is expected to have had there. NaN: unknown.
+struct Reprojected {
+  Plane x, y, depth;
+};
+
+enum class ReprojectionSource { automatic, camera };
+
+struct ReprojectionInput {
+  ConstPlaneView depth;                ///< of the frame, metres
+  Window window;                       ///< of the planes
+  std::optional<CameraReprojection> camera;  ///< now -> before; without it only the vectors are known
+  ConstPlaneView mv_prev_x, mv_prev_y; ///< pixels, may be empty (data == nullptr) or NaN: unknown
+};
+
+/// Camera where its motion agrees with the pixel's vector within `agreement_px` (static surfaces: exact depth), the vector
+/// elsewhere (with the camera's expected depth, or the pixel's own depth without a camera). Background: NaN.
+/// `source` camera ignores the vectors: seed 000 literally.
+Reprojected reproject(const ReprojectionInput& input, ReprojectionSource source, float agreement_px);
+
+/// The vectors mv_prev of frame f from the mv_next of frame f-1: every pixel of f-1 is carried to where it goes, the nearest
+/// in depth wins a pixel (ties: the lower row, then column), holes are NaN. Never the negated vector of f itself.
+struct VelocityPlanes {
+  Plane x, y;
+};
+VelocityPlanes scatter_velocity(ConstPlaneView mv_next_x, ConstPlaneView mv_next_y, ConstPlaneView depth_before,
+                                Window window_before, Window window_now);
+
+}  // namespace aftershade::temporal
