@@ -3,15 +3,26 @@
 
 namespace aftershade::pipeline {
 
-/// What a stage declares about itself; Pipeline checks it against the first header before any pixel is read.
+/// What the first frame of a view offers; needs are checked against it before any pixel is read.
+struct Offer {
+  RoleSet roles;
+  bool lens = false;      ///< a camera with a known field of view
+  bool position = false;  ///< and a known world-to-camera matrix
+};
+
+/// What a stage declares about itself, given what there is.
 struct Needs {
-  RoleSet required;            ///< roles without which the stage cannot run
-  RoleSet optional;            ///< roles it uses if they are there
-  RoleSet previous;            ///< roles it reads of frame f-1
-  bool required_velocity = false;  ///< needs velocity_prev or velocity_next
-  bool camera = false;         ///< uses a camera (a field of view is enough)
-  bool layers = false;         ///< changes layers
-  bool recursive = false;      ///< keeps history: a run starts `preroll` frames early
+  RoleSet required;                ///< roles without which the stage cannot run
+  RoleSet any_of;                  ///< at least one of these (empty: no such demand)
+  RoleSet optional;                ///< roles it uses if they are there
+  RoleSet previous;                ///< roles it reads of frame f-1
+  bool lens = false;               ///< needs to know the field of view
+  bool ao = false;                 ///< works on AO made by an earlier stage ...
+  bool ao_at_pixels = false;       ///< ... which must be at full resolution by then
+  bool makes_ao = false;
+  bool makes_ao_at_pixels = false;
+  bool layers = false;             ///< changes layers
+  bool recursive = false;          ///< keeps history: a run starts `preroll` frames early
 };
 
 }  // namespace aftershade::pipeline

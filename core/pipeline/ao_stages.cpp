@@ -1,0 +1,111 @@
+#include "core/pipeline/stage.h"
+
+namespace aftershade::pipeline {
+
+namespace {
+
+class ScalableAo final : public Stage {
+ public:
+  explicit ScalableAo(const ao::ScalableAoParams& params) : params_(params) {}
+
+  Needs needs(const Offer&) const override {
+    Needs needs;
+    needs.required = {Role::depth};
+    (params_.normals == ao::NormalSource::file ? needs.required : needs.optional).insert(Role::normal);
+    needs.lens = needs.makes_ao = true;
+    needs.makes_ao_at_pixels = params_.resolution == ao::Resolution::full;
+    return needs;
+  }
+
+  void run(Work& work) override {
+    const filter::Surface& surface = work.surface(params_.normals);
+    const bool full = params_.resolution == ao::Resolution::full;
+    work.grid = full ? filter::full_grid(surface) : filter::half_grid(surface);
+    work.ao = ao::scalable_ao(params_, surface, work.pyramid(), *work.grid, work.frame.number);
+    work.ao_at_pixels = full;
+    if (work.options.diagnostics)
+      work.frame.added["aftershade.ao_raw"] = temporal::mask_at_pixels(work.ao, *work.grid, surface);
+  }
+
+ private:
+  ao::ScalableAoParams params_;
+};
+
+class BilateralBlur final : public Stage {
+ public:
+  explicit BilateralBlur(const filter::BilateralBlurParams& params) : params_(params) {}
+
+  Needs needs(const Offer&) const override {
+    Needs needs;
+    needs.required = {Role::depth};
+    needs.optional = {Role::normal};
+    needs.lens = needs.ao = true;
+    return needs;
+  }
+
+  void run(Work& work) override {
+    const filter::Surface& surface = work.surface();
+    if (work.ao_at_pixels && work.grid->step != 1) work.grid = filter::full_grid(surface);
+    work.ao = filter::bilateral_blur(params_, work.ao, *work.grid, surface);
+  }
+
+ private:
+  filter::BilateralBlurParams params_;
+};
+
+class BilateralUpsample final : public Stage {
+ public:
+  explicit BilateralUpsample(const filter::BilateralUpsampleParams& params) : params_(params) {}
+
+  Needs needs(const Offer&) const override {
+    Needs needs;
+    needs.required = {Role::depth};
+    needs.optional = {Role::normal};
+    needs.lens = needs.ao = needs.makes_ao_at_pixels = true;
+    return needs;
+  }
+
+  void run(Work& work) override {
+    if (work.ao_at_pixels) return;
+    work.ao = filter::bilateral_upsample(params_, work.ao, *work.grid, work.surface());
+    work.ao_at_pixels = true;
+  }
+
+ private:
+  filter::BilateralUpsampleParams params_;
+};
+
+class ApplyAo final : public Stage {
+ public:
+  explicit ApplyAo(const ao::ApplyAoParams& params) : params_(params) {}
+
+  Needs needs(const Offer&) const override {
+    Needs needs;
+    if (params_.target == ao::ApplyTarget::ambient) needs.required = {Role::ambient};
+    if (params_.target == ao::ApplyTarget::automatic) needs.optional = {Role::ambient};
+    needs.ao = needs.ao_at_pixels = needs.layers = true;
+    return needs;
+  }
+
+  void run(Work& work) override {
+    const bool ambient = ao::resolved_target(params_, work.frame) == ao::ApplyTarget::ambient;
+    if (params_.target == ao::ApplyTarget::automatic)
+      work.note(ambient ? "AO is applied to the ambient light only (the file has it)"
+                        : "AO is applied to everything (no ambient light channel was found)");
+    ao::apply_ao(params_, work.ao, work.frame);
+  }
+
+ private:
+  ao::ApplyAoParams params_;
+};
+
+}  // namespace
+
+std::unique_ptr<Stage> make_stage(const ao::ScalableAoParams& params) { return std::make_unique<ScalableAo>(params); }
+std::unique_ptr<Stage> make_stage(const filter::BilateralBlurParams& params) { return std::make_unique<BilateralBlur>(params); }
+std::unique_ptr<Stage> make_stage(const filter::BilateralUpsampleParams& params) {
+  return std::make_unique<BilateralUpsample>(params);
+}
+std::unique_ptr<Stage> make_stage(const ao::ApplyAoParams& params) { return std::make_unique<ApplyAo>(params); }
+
+}  // namespace aftershade::pipeline

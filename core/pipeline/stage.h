@@ -1,0 +1,32 @@
+#pragma once
+#include <memory>
+
+#include "core/pipeline/needs.h"
+#include "core/pipeline/work.h"
+#include "core/preset/methods.h"
+
+namespace aftershade::pipeline {
+
+/// One step of a preset at work on one view of the sequence. A stage object may keep history from frame to frame.
+class Stage {
+ public:
+  virtual ~Stage() = default;
+  virtual Needs needs(const Offer& offer) const = 0;
+  virtual void run(Work& work) = 0;
+  /// Forgets the history: first frame, gap, change of the display window.
+  virtual void restart() {}
+};
+
+/// One overload a method: adding a method to preset::StageParams makes the compiler ask for it here.
+std::unique_ptr<Stage> make_stage(const ao::ScalableAoParams& params);
+std::unique_ptr<Stage> make_stage(const filter::BilateralBlurParams& params);
+std::unique_ptr<Stage> make_stage(const filter::BilateralUpsampleParams& params);
+std::unique_ptr<Stage> make_stage(const temporal::SelectiveTemporalParams& params);
+std::unique_ptr<Stage> make_stage(const ao::ApplyAoParams& params);
+std::unique_ptr<Stage> make_stage(const motionblur::ScalableBlurParams& params);
+
+inline std::unique_ptr<Stage> make_stage(const preset::StageParams& params) {
+  return std::visit([](const auto& p) { return make_stage(p); }, params);
+}
+
+}  // namespace aftershade::pipeline

@@ -1,0 +1,53 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/ao/scalable_ao.h"
+#include "core/filter/normals.h"
+#include "core/filter/pyramid.h"
+#include "core/filter/sample_grid.h"
+#include "core/filter/surface.h"
+#include "core/image/frame.h"
+
+namespace aftershade::pipeline {
+
+struct WorkOptions {
+  bool diagnostics = false;       ///< stages add their intermediate results as channels "aftershade.*"
+  bool grow_data_window = false;  ///< blur may leave the data window (as far as the display window)
+};
+
+/// One view of one frame on its way through the stages: what was read, what stages hand to each other, what they report.
+class Work {
+ public:
+  Work(Frame& current, const Frame* before, const WorkOptions& wishes) : frame(current), previous(before), options(wishes) {}
+  Work(const Work&) = delete;
+
+  Frame& frame;
+  const Frame* previous;  ///< frame f-1 with the roles that stages asked for, or nullptr
+  const WorkOptions& options;
+
+  std::optional<filter::SampleGrid> grid;  ///< where the AO was evaluated
+  Plane ao;                                ///< 1 = open; on the grid, later on every pixel
+  bool ao_at_pixels = false;
+
+  /// The visible surface. The first caller decides whose normals are used: `automatic` takes the file's where it has some.
+  const filter::Surface& surface(ao::NormalSource source = ao::NormalSource::automatic);
+  /// Depth mips for taps far away.
+  const filter::DepthPyramid& pyramid();
+
+  /// Lays the frame's planes and the AO into `window` (absolute coordinates): new pixels are background (depth +inf, velocity
+  /// unknown, AO 1, everything else 0), pixels outside are dropped.
+  void change_window(Window window);
+
+  void note(std::string text) { notes.push_back(std::move(text)); }
+  void warn(std::string text) { warnings.push_back(std::move(text)); }
+  std::vector<std::string> notes, warnings;  ///< for the log
+
+ private:
+  std::optional<filter::Surface> surface_;
+  std::optional<filter::Normals> derived_normals_;
+  std::optional<filter::DepthPyramid> pyramid_;
+};
+
+}  // namespace aftershade::pipeline
