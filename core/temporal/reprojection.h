@@ -16,19 +16,20 @@ struct Reprojected {
 enum class ReprojectionSource { automatic, camera };
 
 struct ReprojectionInput {
-  ConstPlaneView depth;                ///< of the frame, metres
-  Window window;                       ///< of the planes
+  ConstPlaneView depth;                      ///< of the frame, metres
+  Window window;                             ///< of the planes
   std::optional<CameraReprojection> camera;  ///< now -> before; without it only the vectors are known
-  ConstPlaneView mv_prev_x, mv_prev_y; ///< pixels, may be empty (data == nullptr) or NaN: unknown
+  ConstPlaneView mv_prev_x, mv_prev_y;       ///< pixels, may be empty (data == nullptr) or NaN: unknown
 };
 
-/// Camera where its motion agrees with the pixel's vector within `agreement_px` (static surfaces: exact depth), the vector
-/// elsewhere (with the camera's expected depth, or the pixel's own depth without a camera). Background: NaN.
+/// Camera where its motion agrees with the pixel's vector within `agreement_px` (static surfaces: exact depth), the
+/// vector elsewhere (with the camera's expected depth, or the pixel's own depth without a camera). Background: NaN.
 /// `source` camera ignores the vectors: seed 000 literally.
 Reprojected reproject(const ReprojectionInput& input, ReprojectionSource source, float agreement_px);
 
-/// The vectors mv_prev of frame f from the mv_next of frame f-1: every pixel of f-1 is carried to where it goes, the nearest
-/// in depth wins a pixel (ties: the lower row, then column), holes are NaN. Never the negated vector of f itself.
+/// The vectors mv_prev of frame f from the mv_next of frame f-1: every pixel of f-1 is carried to where it goes, the
+/// nearest in depth wins a pixel (ties: the lower row, then column), holes are NaN. Never the negated vector of f
+/// itself.
 struct VelocityPlanes {
   Plane x, y;
 };

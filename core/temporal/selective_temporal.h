@@ -9,22 +9,24 @@
 
 namespace aftershade::temporal {
 
-/// Selective Temporal Filtering (Bavoil and Andersson, "Stable SSAO in Battlefield 3", GDC 2012; seed 000). A pixel near a
-/// depth discontinuity is unstable (may flicker, cannot trail) and is averaged with its history; all others keep this
-/// frame's AO, so moving objects leave no trail on them:
-///   unstable and |1 - w_i / z_{i-1}| < epsilon:  AO = (N_{i-1} AO_{i-1} + AO_i) / (N_{i-1} + 1), N = min(N_{i-1} + 1, max_frames)
-///   else:                                        AO = AO_i, N = 1
-/// w_i: depth of P_i seen from camera i-1. Stored with AO and N is z_i, the depth in view i (the seed's listing returns w_i,
-/// which is the same thing only for a still camera). AO and N are fetched with four validated bilinear taps.
+/// Selective Temporal Filtering (Bavoil and Andersson, "Stable SSAO in Battlefield 3", GDC 2012; seed 000). A pixel
+/// near a depth discontinuity is unstable (may flicker, cannot trail) and is averaged with its history; all others keep
+/// this frame's AO, so moving objects leave no trail on them:
+///   if unstable and |1 - w_i / z_{i-1}| < epsilon:
+///     AO = (N_{i-1} AO_{i-1} + AO_i) / (N_{i-1} + 1), N = min(N_{i-1} + 1, max_frames)
+///   else: AO = AO_i, N = 1
+/// w_i: depth of P_i seen from camera i-1. Stored with AO and N is z_i, the depth in view i (the seed's listing returns
+/// w_i, which is the same thing only for a still camera). AO and N are fetched with four validated bilinear taps; N is
+/// their weighted mean, not rounded, and exact where the camera stands still.
 struct SelectiveTemporalParams {
   static constexpr std::string_view method = "selective-temporal-filter";
   static constexpr std::string_view summary = "Battlefield 3's Selective Temporal Filtering of the AO";
-  float epsilon = 0.10F;               ///< relative depth difference up to which the surface counts as the same
-  float distance_m = 0.1F;             ///< L: neighbours farther apart than this are discontinuous ...
-  float distance_footprints = 3;       ///< ... or than this many pixel footprints (0 in literal presets)
-  int dilation_texels = 4;             ///< side of the square that spreads discontinuities, in texels of the AO's grid
-  int max_frames = 8;                  ///< N_max: 8 gives a new frame at least 1/9 of the weight
-  bool selective = true;               ///< false: every pixel is filtered (the plain temporal filter of the slides)
+  float epsilon = 0.10F;          ///< relative depth difference up to which the surface counts as the same
+  float distance_m = 0.1F;        ///< L: neighbours farther apart than this are discontinuous ...
+  float distance_footprints = 3;  ///< ... or than this many pixel footprints (0 in literal presets)
+  int dilation_texels = 4;        ///< side of the square that spreads discontinuities, in texels of the AO's grid
+  int max_frames = 8;             ///< N_max: 8 gives a new frame at least 1/9 of the weight
+  bool selective = true;          ///< false: every pixel is filtered (the plain temporal filter of the slides)
   ReprojectionSource reprojection = ReprojectionSource::automatic;
   float agreement_px = 0.5F;
   static const params::Table& table();
@@ -37,19 +39,22 @@ struct TemporalHistory {
   Plane ao, depth, count;
 };
 
-/// 1 where the grid texel is piecewise continuous ("Piecewise Continuity Test"): along x and along y the nearer neighbour is
-/// closer than L = max(distance_m, distance_footprints * footprint at the texel's depth). Background is continuous with nothing: 0.
-Plane continuity_mask(const SelectiveTemporalParams& params, const filter::SampleGrid& grid, const filter::Surface& surface);
+/// 1 where the grid texel is piecewise continuous ("Piecewise Continuity Test"): along x and along y the nearer
+/// neighbour is closer than L = max(distance_m, distance_footprints * footprint at the texel's depth). Background is
+/// continuous with nothing: 0.
+Plane continuity_mask(const SelectiveTemporalParams& params, const filter::SampleGrid& grid,
+                      const filter::Surface& surface);
 
-/// all_{n x n}: 1 where the whole n x n neighbourhood is 1; for even n offsets run from -n/2 to n/2 - 1. Texels outside the
-/// image do not count.
+/// all_{n x n}: 1 where the whole n x n neighbourhood is 1; for even n offsets run from -n/2 to n/2 - 1. Texels outside
+/// the image do not count.
 Plane dilate_discontinuities(ConstPlaneView mask, int n);
 
 /// The grid's mask at every pixel of the surface (parent texel). 1 = stable.
 Plane mask_at_pixels(ConstPlaneView mask, const filter::SampleGrid& grid, const filter::Surface& surface);
 
-/// One step of the filter at full resolution. `history` is that of frame i-1 (empty planes: cleared) and becomes that of
-/// frame i. Returns the filtered AO; `count`, if not null, receives N.
+/// One step of the filter at full resolution. `history` is that of frame i-1 (empty planes: cleared; its window may
+/// differ in place and size) and becomes that of frame i: history.count is N. Returns the filtered AO. All planes cover
+/// `window`; `stable_mask` may be empty when params.selective is false. AO that is not finite counts as 1.
 Plane selective_temporal_filter(const SelectiveTemporalParams& params, ConstPlaneView ao, ConstPlaneView depth,
                                 ConstPlaneView stable_mask, const Reprojected& reprojected, Window window,
                                 TemporalHistory& history);

@@ -1,0 +1,78 @@
+#include "core/temporal/reprojection.h"
+
+#include <cmath>
+#include <limits>
+
+#include "core/parallel/rows.h"
+
+namespace aftershade::temporal {
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr Vec3 kUnknown{kNaN, kNaN, kNaN};
+
+bool is_surface(double depth) { return std::isfinite(depth) && depth > 0; }
+
+/// Position and expected depth of a static surface (algorithms 7.1); unknown behind the camera before.
+Vec3 static_surface(const ReprojectionInput& input, double x, double y, double z) {
+  if (!input.camera) return kUnknown;
+  const Vec3 before = (*input.camera)(x, y, z);
+  return before.z > 0 ? before : kUnknown;
+}
+
+/// The vector decides where it is known and the camera's motion does not explain it (algorithms 7.2).
+Vec3 where_it_was(const ReprojectionInput& input, double x, double y, double z, double mv_x, double mv_y,
+                  double agreement_px) {
+  const Vec3 before = static_surface(input, x, y, z);
+  if (!std::isfinite(mv_x) || !std::isfinite(mv_y)) return before;
+  if (!input.camera) return {x + mv_x, y + mv_y, z};
+  if (std::hypot(before.x - x - mv_x, before.y - y - mv_y) <= agreement_px) return before;
+  return {x + mv_x, y + mv_y, before.z};
+}
+
+}  // namespace
+
+Reprojected reproject(const ReprojectionInput& input, ReprojectionSource source, float agreement_px) {
+  const int width = input.depth.width, height = input.depth.height;
+  const bool vectors = source == ReprojectionSource::automatic && !input.mv_prev_x.empty() && !input.mv_prev_y.empty();
+  Reprojected out{Plane(width, height), Plane(width, height), Plane(width, height)};
+  for_rows(height, [&](int j) {
+    const double y = input.window.min_y + j + 0.5;
+    for (int i = 0; i < width; ++i) {
+      const double x = input.window.min_x + i + 0.5, z = input.depth(i, j);
+      const double mv_x = vectors ? input.mv_prev_x(i, j) : kNaN, mv_y = vectors ? input.mv_prev_y(i, j) : kNaN;
+      const Vec3 before = is_surface(z) ? where_it_was(input, x, y, z, mv_x, mv_y, agreement_px) : kUnknown;
+      out.x(i, j) = static_cast<float>(before.x);
+      out.y(i, j) = static_cast<float>(before.y);
+      out.depth(i, j) = static_cast<float>(before.z);
+    }
+  });
+  return out;
+}
+
+VelocityPlanes scatter_velocity(ConstPlaneView mv_next_x, ConstPlaneView mv_next_y, ConstPlaneView depth_before,
+                                Window window_before, Window window_now) {
+  constexpr float kHole = std::numeric_limits<float>::quiet_NaN();
+  const int width = window_now.width(), height = window_now.height();
+  VelocityPlanes out{Plane(width, height, kHole), Plane(width, height, kHole)};
+  Plane nearest(width, height);
+  // One thread, in raster order: the order is what decides ties.
+  for (int j = 0; j < window_before.height(); ++j)
+    for (int i = 0; i < window_before.width(); ++i) {
+      const float mv_x = mv_next_x(i, j), mv_y = mv_next_y(i, j);
+      const double x = std::floor(window_before.min_x + i + 0.5 + mv_x) - window_now.min_x;
+      const double y = std::floor(window_before.min_y + j + 0.5 + mv_y) - window_now.min_y;
+      if (!(x >= 0 && x < width && y >= 0 && y < height)) continue;  // also NaN
+      const int to_x = static_cast<int>(x), to_y = static_cast<int>(y);
+      const float z = is_surface(depth_before(i, j)) ? depth_before(i, j) : std::numeric_limits<float>::infinity();
+      const bool hole = std::isnan(out.x(to_x, to_y));
+      if (!hole && !(z < nearest(to_x, to_y))) continue;
+      nearest(to_x, to_y) = z;
+      out.x(to_x, to_y) = -mv_x;
+      out.y(to_x, to_y) = -mv_y;
+    }
+  return out;
+}
+
+}  // namespace aftershade::temporal
