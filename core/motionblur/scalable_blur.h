@@ -1,8 +1,11 @@
 #pragma once
 #include <span>
+#include <string_view>
 
 #include "core/image/plane.h"
 #include "core/image/window.h"
+#include "core/motionblur/half_velocity.h"
+#include "core/motionblur/tile_max.h"
 #include "core/params/table.h"
 
 namespace aftershade::motionblur {
@@ -13,23 +16,24 @@ enum class Directions { neighbourhood, alternate };
 /// Vicarious Visions' scalable motion blur (seed 004), the gather of McGuire et al. 2012 with alternating directions.
 /// Velocities are half-exposure vectors in pixels, clamped to K; tiles are K x K; neighbour max is 3x3 tiles.
 /// Per tap at distance d, with f and b the soft depth comparison over `soft_depth_extent_m`:
-///   weight = b (1 - d/|v_C|) + f (1 - d/|v_S|) + [|v_S| >= d and |v_C| >= d]     slides "Background / Foreground / Mutually Blurry"
-/// each term with its tunable weight; the sum of colours is divided by the sum of weights. Alternation keeps the length of
-/// v_N and takes v_C only as a direction, and only if |v_C| >= 1.5 px (algorithms 2.4: taken literally it is degenerate).
-/// Taps outside the image are dropped with their weight. RGBA together, premultiplied, scene-linear.
+///   weight = b (1 - d/|v_C|) + f (1 - d/|v_S|) + [|v_S| >= d and |v_C| >= d]     slides "Background / Foreground /
+///   Mutually Blurry"
+/// each term with its tunable weight; the sum of colours is divided by the sum of weights. Alternation keeps the length
+/// of v_N and takes v_C only as a direction, and only if |v_C| >= 1.5 px (algorithms 2.4: taken literally it is
+/// degenerate). Taps outside the image are dropped with their weight. RGBA together, premultiplied, scene-linear.
 struct ScalableBlurParams {
   static constexpr std::string_view method = "scalable-motion-blur";
   static constexpr std::string_view summary = "Vicarious Visions' scalable motion blur (SIGGRAPH 2012)";
-  float shutter_frames = 0.5F;        ///< exposure as a share of the frame interval, centred on the frame
-  bool shutter_from_header = false;   ///< use the header's shutterAngle / 360 where there is one
-  int taps = 9;                       ///< with the centre; odd
-  float max_radius_px = 18;           ///< K at the reference height, rounded up
+  float shutter_frames = 0.5F;       ///< exposure as a share of the frame interval, centred on the frame
+  bool shutter_from_header = false;  ///< use the header's shutterAngle / 360 where there is one
+  int taps = 9;                      ///< with the centre; odd
+  float max_radius_px = 18;          ///< K at the reference height, rounded up
   float reference_height_px = 1080;
   Jitter jitter = Jitter::random4x4;
   Directions directions = Directions::alternate;
-  float soft_depth_extent_m = 0.1F;   ///< ours: not stated by the seed
+  float soft_depth_extent_m = 0.1F;  ///< ours: not stated by the seed
   float background_weight = 1, foreground_weight = 1, both_moving_weight = 1;
-  float centre_weight = 1;            ///< factor of McGuire's 1 / |v_C|: higher is subtler, lower is thicker
+  float centre_weight = 1;  ///< factor of McGuire's 1 / |v_C|: higher is subtler, lower is thicker
   static const params::Table& table();
   bool operator==(const ScalableBlurParams&) const = default;
 };
@@ -37,25 +41,15 @@ struct ScalableBlurParams {
 /// K in pixels for an image of this height.
 int max_radius_px(const ScalableBlurParams& params, int display_height);
 
-struct HalfVelocity {
-  Plane x, y;  ///< pixels of half the exposure; |v| <= K; 0 where unknown
-};
-/// Half of shutter * displacement per frame; the displacement is the mean of next and -prev where both are known, else the
-/// known one, else 0. Either pair may be empty (data == nullptr).
-HalfVelocity half_velocity(ConstPlaneView prev_x, ConstPlaneView prev_y, ConstPlaneView next_x, ConstPlaneView next_y,
-                           float shutter_frames, float max_radius);
-
-/// The velocity of greatest magnitude in each K x K tile (aligned to absolute coordinates), then in the 3x3 tiles around it.
-HalfVelocity tile_max(const HalfVelocity& velocity, int tile, Window window);
-HalfVelocity neighbour_max(const HalfVelocity& tiles);
-
 struct BlurInput {
-  ConstPlaneView depth;           ///< metres, or empty: everything at one depth
+  ConstPlaneView depth;  ///< metres, or empty: everything at one depth
   const HalfVelocity* velocity;
   Window window;
   int display_height;
 };
-/// Blurs `channels` together, in place. `tiles`, if not null, receives the neighbour-max velocity at tile resolution.
+/// Blurs `channels` together, in place: every plane is as large as `window`. Pixels whose 3x3 tiles move at most half a
+/// pixel keep their bits, and so does a pixel with a channel that is not finite. `tiles`, if not null, receives the
+/// neighbour-max velocity at tile resolution.
 void scalable_motion_blur(const ScalableBlurParams& params, const BlurInput& input, std::span<Plane* const> channels,
                           HalfVelocity* tiles = nullptr);
 

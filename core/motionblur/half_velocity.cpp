@@ -1,0 +1,29 @@
+#include "core/motionblur/half_velocity.h"
+
+#include "core/motionblur/half_velocity_kernel.h"
+#include "core/parallel/rows.h"
+
+namespace aftershade::motionblur {
+
+namespace {
+
+VelocityRow row_of(ConstPlaneView x, ConstPlaneView y, int row) {
+  if (x.data == nullptr || y.data == nullptr) return {nullptr, nullptr};
+  return {x.row(row), y.row(row)};
+}
+
+}  // namespace
+
+HalfVelocity half_velocity(ConstPlaneView prev_x, ConstPlaneView prev_y, ConstPlaneView next_x, ConstPlaneView next_y,
+                           float shutter_frames, float max_radius) {
+  const ConstPlaneView size = next_x.data != nullptr ? next_x : prev_x;
+  HalfVelocity out{Plane(size.width, size.height), Plane(size.width, size.height)};
+  const HalfVelocityKernel kernel{0.5F * shutter_frames, max_radius};
+  for_rows(size.height, [&](int y) {
+    half_velocity_row(kernel, row_of(prev_x, prev_y, y), row_of(next_x, next_y, y), size.width, out.x.row(y),
+                      out.y.row(y));
+  });
+  return out;
+}
+
+}  // namespace aftershade::motionblur

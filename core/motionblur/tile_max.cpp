@@ -1,0 +1,75 @@
+#include "core/motionblur/tile_max.h"
+
+#include <algorithm>
+
+#include "core/motionblur/tile_max_kernel.h"
+#include "core/parallel/rows.h"
+
+namespace aftershade::motionblur {
+
+namespace {
+
+int floor_div(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
+
+struct Longest {
+  float square = 0, x = 0, y = 0;
+  void take(float square_of, float vx, float vy) {
+    if (square_of > square) *this = {square_of, vx, vy};
+  }
+};
+
+}  // namespace
+
+TileGrid::TileGrid(int tile, Window window)
+    : tile_(tile),
+      window_(window),
+      first_x_(floor_div(window.min_x, tile)),
+      first_y_(floor_div(window.min_y, tile)),
+      last_x_(floor_div(window.max_x, tile)),
+      last_y_(floor_div(window.max_y, tile)) {}
+
+int TileGrid::column_of(int x) const { return floor_div(window_.min_x + x, tile_) - first_x_; }
+int TileGrid::row_of(int y) const { return floor_div(window_.min_y + y, tile_) - first_y_; }
+int TileGrid::first_column(int column) const { return std::max((first_x_ + column) * tile_ - window_.min_x, 0); }
+int TileGrid::first_row(int row) const { return std::max((first_y_ + row) * tile_ - window_.min_y, 0); }
+
+HalfVelocity tile_max(const HalfVelocity& velocity, int tile, Window window) {
+  const TileGrid grid(tile, window);
+  const int width = velocity.x.width(), height = velocity.x.height();
+  HalfVelocity out{Plane(grid.columns(), grid.rows()), Plane(grid.columns(), grid.rows())};
+  for_rows(grid.rows(), [&](int row) {
+    Plane columns(width, 3);
+    const ColumnMax best{columns.row(0), columns.row(1), columns.row(2)};
+    for (int y = grid.first_row(row); y < std::min(grid.first_row(row + 1), height); ++y)
+      column_max_row(velocity.x.row(y), velocity.y.row(y), width, best);
+    for (int column = 0; column < grid.columns(); ++column) {
+      Longest longest;
+      for (int x = grid.first_column(column); x < std::min(grid.first_column(column + 1), width); ++x)
+        longest.take(best.square[x], best.x[x], best.y[x]);
+      out.x(column, row) = longest.x;
+      out.y(column, row) = longest.y;
+    }
+  });
+  return out;
+}
+
+HalfVelocity neighbour_max(const HalfVelocity& tiles) {
+  const int width = tiles.x.width(), height = tiles.x.height();
+  HalfVelocity out{Plane(width, height), Plane(width, height)};
+  for (int row = 0; row < height; ++row)
+    for (int column = 0; column < width; ++column) {
+      Longest longest;
+      const auto take = [&](int x, int y) {
+        const float vx = tiles.x(x, y), vy = tiles.y(x, y);
+        longest.take(vx * vx + vy * vy, vx, vy);
+      };
+      take(column, row);
+      for (int y = std::max(row - 1, 0); y <= std::min(row + 1, height - 1); ++y)
+        for (int x = std::max(column - 1, 0); x <= std::min(column + 1, width - 1); ++x) take(x, y);
+      out.x(column, row) = longest.x;
+      out.y(column, row) = longest.y;
+    }
+  return out;
+}
+
+}  // namespace aftershade::motionblur
