@@ -13,9 +13,10 @@ enum class NormalSource { automatic, file, depth };
 /// Vicarious Visions' scalable ambient occlusion (Bukowski, Hennessy, McGuire, Osman, SIGGRAPH 2012; seed 004):
 ///   AO_s = max(1 - |v| / r, 0) * max((v / |v|) . n - bias, 0)          "Falloff Function" slide
 ///   AO_T = (2 scale / S * sum_s AO_s)^2, visibility = 1 - sat(AO_T)    "Total Occlusion" slide
-/// v goes from the pixel's point to the tap's point. Current-gen: 4 taps in mirrored pairs at full resolution, projected
-/// radius clamped to about 20 px; DX11: 9 taps on a procedural spiral, no clamp, taps far away read depth mips (SAO's offset
-/// LOG_MAX_OFFSET = 3). Taps are linear in radius (SAO, algorithms 4.2). Taps outside the image and on background do not occlude.
+/// v goes from the pixel's point to the tap's point. Current-gen: 4 taps in mirrored pairs at full resolution,
+/// projected radius clamped to about 20 px; DX11: 9 taps on a procedural spiral, no clamp, taps far away read depth
+/// mips (SAO's offset LOG_MAX_OFFSET = 3). Taps are linear in radius (SAO, algorithms 4.2). Taps outside the image and
+/// on background do not occlude.
 struct ScalableAoParams {
   static constexpr std::string_view method = "scalable-ao";
   static constexpr std::string_view summary = "Vicarious Visions' scalable ambient occlusion (SIGGRAPH 2012)";
@@ -23,13 +24,13 @@ struct ScalableAoParams {
   TapPattern pattern = TapPattern::spiral;
   int taps = 9;
   float radius_m = 1.0F;
-  float max_radius_px = 0;            ///< clamp of the projected radius at the reference height; 0: none
+  float max_radius_px = 0;  ///< clamp of the projected radius at the reference height; 0: none
   float reference_height_px = 720;
-  float bias = 0.05F;                 ///< ours: not stated by the seed
-  float scale = 3.5F;                 ///< ours: matches horizon-based AO in a corner at a tenth of the radius
+  float bias = 0.05F;  ///< ours: not stated by the seed
+  float scale = 3.5F;  ///< ours: matches horizon-based AO in a corner at a tenth of the radius
   bool depth_mips = true;
   NormalSource normals = NormalSource::automatic;
-  bool per_frame_noise = false;       ///< a new rotation pattern every frame
+  bool per_frame_noise = false;  ///< a new rotation pattern every frame
   static const params::Table& table();
   bool operator==(const ScalableAoParams&) const = default;
 };

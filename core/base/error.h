@@ -20,7 +20,7 @@ class Error : public std::exception {
   const char* what() const noexcept override { return text_.c_str(); }
   ErrorCode code() const { return code_; }
   const std::string& message() const { return message_; }  ///< with context, without hint
-  const std::string& hint() const { return hint_; }         ///< what to do about it; may be empty
+  const std::string& hint() const { return hint_; }        ///< what to do about it; may be empty
   /// Puts "while reading frame 1042 (beauty.1042.exr)" before the message.
   void add_context(std::string_view context);
 

@@ -13,8 +13,7 @@ namespace detail {
 inline void append(std::string& out, std::string_view text) { out += text; }
 inline void append(std::string& out, char c) { out += c; }
 template <class T>
-  requires(std::integral<T> && !std::same_as<T, bool>) || std::floating_point<T>
-void append(std::string& out, T value) {
+requires(std::integral<T> && !std::same_as<T, bool>) || std::floating_point<T> void append(std::string& out, T value) {
   char buffer[64];
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
   out.append(buffer, end);

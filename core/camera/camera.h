@@ -18,7 +18,8 @@ struct Camera {
 
   /// Camera-space point of pixel position (x, y) at planar depth z.
   Vec3 unproject(double x, double y, double z) const;
-  /// Pixel position and depth of a camera-space point: {x, y, Z}. Points with Z <= 0 have no image (NaN) in perspective.
+  /// Pixel position and depth of a camera-space point: {x, y, Z}. Points with Z <= 0 have no image (NaN) in
+  /// perspective.
   Vec3 project(Vec3 p) const;
 };
 
@@ -31,7 +32,9 @@ Camera camera_from_fov(double horizontal_fov_deg, double pixel_aspect, int min_x
 class CameraReprojection {
  public:
   static std::optional<CameraReprojection> create(const Camera& now, const Camera& before);
-  Vec3 operator()(double x, double y, double z) const { return before_.project(transform_point(now_.unproject(x, y, z), delta_)); }
+  Vec3 operator()(double x, double y, double z) const {
+    return before_.project(transform_point(now_.unproject(x, y, z), delta_));
+  }
   const Mat4& delta() const { return delta_; }
 
  private:

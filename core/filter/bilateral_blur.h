@@ -6,20 +6,22 @@
 namespace aftershade::filter {
 
 /// Depth-aware separable blur (seed 004, "Depth aware bilateral blur; wide filter to hide pattern"). Gaussian over the
-/// radius (sigma = (radius + 1) / 2, seed 000's CrossBilateralWeight), times exp2(-(d / tolerance)^2) where d is the distance
-/// of the tap from the centre's tangent plane: a slope is blurred, an edge is not. Background neither gives nor takes.
+/// radius (sigma = (radius + 1) / 2, seed 000's CrossBilateralWeight), times exp2(-(d / tolerance)^2) where d is the
+/// distance of the tap from the centre's tangent plane: a slope is blurred, an edge is not. Background neither gives
+/// nor takes.
 struct BilateralBlurParams {
   static constexpr std::string_view method = "bilateral-blur";
   static constexpr std::string_view summary = "depth-aware Gaussian blur of the AO, at the AO's resolution";
-  float radius_px = 4;             ///< at the reference height, in texels of the AO's own grid
+  float radius_px = 4;  ///< at the reference height, in texels of the AO's own grid
   float reference_height_px = 1080;
-  float edge_distance_m = 0.05F;   ///< tolerance: at least this far from the tangent plane ...
-  float edge_footprints = 2;       ///< ... or this many pixel footprints at the pixel's depth
+  float edge_distance_m = 0.05F;  ///< tolerance: at least this far from the tangent plane ...
+  float edge_footprints = 2;      ///< ... or this many pixel footprints at the pixel's depth
   static const params::Table& table();
   bool operator==(const BilateralBlurParams&) const = default;
 };
 
 /// `value` on the grid; returns the blurred value on the grid. X pass, then Y pass, both with the centre's surface.
-Plane bilateral_blur(const BilateralBlurParams& params, ConstPlaneView value, const SampleGrid& grid, const Surface& surface);
+Plane bilateral_blur(const BilateralBlurParams& params, ConstPlaneView value, const SampleGrid& grid,
+                     const Surface& surface);
 
 }  // namespace aftershade::filter

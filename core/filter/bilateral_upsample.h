@@ -5,9 +5,9 @@
 
 namespace aftershade::filter {
 
-/// Joint bilateral upsampling (Kopf et al. 2007) from picked pixels: tent weight of the distance to each texel's real pixel,
-/// times exp2(-(d / tolerance)^2) of its distance from the pixel's tangent plane, over the 3x3 nearest texels. Where no texel
-/// lies on the pixel's surface (sum of weights < 1e-3) the nearest in depth is taken.
+/// Joint bilateral upsampling (Kopf et al. 2007) from picked pixels: tent weight of the distance to each texel's real
+/// pixel, times exp2(-(d / tolerance)^2) of its distance from the pixel's tangent plane, over the 3x3 nearest texels.
+/// Where no texel lies on the pixel's surface (sum of weights < 1e-3) the nearest in depth is taken.
 struct BilateralUpsampleParams {
   static constexpr std::string_view method = "bilateral-upsample";
   static constexpr std::string_view summary = "depth-aware interpolation of a half-resolution AO to every pixel";
@@ -18,6 +18,7 @@ struct BilateralUpsampleParams {
 };
 
 /// `value` on the grid; returns a plane of the surface's size, 1 on background. A grid of step 1 is copied.
-Plane bilateral_upsample(const BilateralUpsampleParams& params, ConstPlaneView value, const SampleGrid& grid, const Surface& surface);
+Plane bilateral_upsample(const BilateralUpsampleParams& params, ConstPlaneView value, const SampleGrid& grid,
+                         const Surface& surface);
 
 }  // namespace aftershade::filter

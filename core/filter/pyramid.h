@@ -1,21 +1,27 @@
 #pragma once
 #include <vector>
 
+#include "core/filter/surface.h"
 #include "core/image/plane.h"
 
 namespace aftershade::filter {
 
 /// Depth at successively halved resolution by rotated-grid subsampling, z_{m+1}(x,y) = z_m(2x + (y&1), 2y + (x&1)),
 /// clamped to the image (SAO, McGuire et al. 2012): no averages, every value is a depth that exists. Level 0 is not
-/// stored: it is the image itself.
+/// stored: it is the image itself. x and y are absolute coordinates, so the levels of a data window that moves hold the
+/// same pixels: level m's index (0, 0) is absolute texel (origin_x >> m, origin_y >> m).
 class DepthPyramid {
  public:
-  DepthPyramid(ConstPlaneView depth, int levels);
+  /// `levels` >= 1, with level 0. `origin` is the absolute coordinate of depth's index (0, 0), as in Surface.
+  DepthPyramid(ConstPlaneView depth, int levels, int origin_x = 0, int origin_y = 0);
   int levels() const { return static_cast<int>(mips_.size()) + 1; }
   ConstPlaneView level(int m) const { return m == 0 ? base_ : ConstPlaneView(mips_.at(static_cast<size_t>(m - 1))); }
+  int origin_x() const { return origin_x_; }
+  int origin_y() const { return origin_y_; }
 
  private:
   ConstPlaneView base_;
+  int origin_x_, origin_y_;
   std::vector<Plane> mips_;
 };
 

@@ -6,8 +6,8 @@ namespace aftershade::filter {
 
 /// The pixels at which an effect is evaluated: all (step 1), or one of every 2x2 block (step 2). Blocks are aligned to
 /// even absolute coordinates, so a data window that moves by one pixel does not change which pixels are taken.
-/// A texel stands for the real pixel it was picked from, never for the block's centre (algorithms: picked depth lives at
-/// its pixel). Size: ceil over the blocks that the window touches.
+/// A texel stands for the real pixel it was picked from, never for the block's centre (algorithms: picked depth lives
+/// at its pixel). Size: ceil over the blocks that the window touches.
 struct SampleGrid {
   int step = 1;
   int origin_x = 0, origin_y = 0;  ///< window index of block (0,0)'s first pixel: 0, or -1 when it lies outside

@@ -29,15 +29,16 @@ struct Layer {
 /// absolute coordinates, because windows move.
 struct Frame {
   int number = 0;
-  std::string view;     ///< "" when the file has no views
-  Window window;        ///< union of the data windows of the parts that hold roles and layers
+  std::string view;  ///< "" when the file has no views
+  Window window;     ///< union of the data windows of the parts that hold roles and layers
   Window display;
   float pixel_aspect = 1;  ///< width / height of a pixel
   std::optional<Camera> camera;
   std::optional<float> shutter_angle_deg;  ///< the header's shutterAngle: 360 exposes the whole frame interval
   std::array<std::vector<Plane>, kRoleCount> roles;
   std::vector<Layer> layers;
-  std::map<std::string, Plane> added;  ///< new channels by name without view ("AO", "aftershade.mask"); half in the file
+  std::map<std::string, Plane>
+      added;  ///< new channels by name without view ("AO", "aftershade.mask"); half in the file
 
   bool has(Role role) const { return !roles[static_cast<size_t>(role)].empty(); }
   std::vector<Plane>& planes(Role role) { return roles[static_cast<size_t>(role)]; }

@@ -21,7 +21,8 @@ using PlaneView = BasicPlaneView<float>;
 using ConstPlaneView = BasicPlaneView<const float>;
 
 /// Owns a float image. Rows start at 64-byte boundaries and have at least kPadding readable and writable floats behind
-/// the last pixel, so that kernels need no tail loop; the padding is never part of a result. Movable; copy with copy_of().
+/// the last pixel, so that kernels need no tail loop; the padding is never part of a result. Movable; copy with
+/// copy_of().
 class Plane {
  public:
   static constexpr int kPadding = 16;

@@ -14,13 +14,15 @@ struct Window {
 };
 
 inline Window intersection(Window a, Window b) {
-  return {std::max(a.min_x, b.min_x), std::max(a.min_y, b.min_y), std::min(a.max_x, b.max_x), std::min(a.max_y, b.max_y)};
+  return {std::max(a.min_x, b.min_x), std::max(a.min_y, b.min_y), std::min(a.max_x, b.max_x),
+          std::min(a.max_y, b.max_y)};
 }
 /// The smallest window that holds both; an empty one counts for nothing.
 inline Window united(Window a, Window b) {
   if (a.empty()) return b;
   if (b.empty()) return a;
-  return {std::min(a.min_x, b.min_x), std::min(a.min_y, b.min_y), std::max(a.max_x, b.max_x), std::max(a.max_y, b.max_y)};
+  return {std::min(a.min_x, b.min_x), std::min(a.min_y, b.min_y), std::max(a.max_x, b.max_x),
+          std::max(a.max_y, b.max_y)};
 }
 
 }  // namespace aftershade

@@ -10,16 +10,18 @@
 
 namespace aftershade::io {
 
-/// The canonical camera from a worldToCamera and a worldToNDC in any producer's convention (conventions 4.4): row or column
-/// vectors, +Z or -Z forward, NDC 0..1 y down, 0..1 y up or -1..1 y up, w positive or negative. Lengths become metres.
-/// Throws Error(data) naming the attribute when a matrix is singular or the result is no camera.
-Camera normalize_camera(Mat4 world_to_camera, Mat4 world_to_ndc, Window display, float pixel_aspect, double metres_per_unit);
+/// The canonical camera from a worldToCamera and a worldToNDC in any producer's convention (conventions 4.4): row or
+/// column vectors, +Z or -Z forward, NDC 0..1 y down, 0..1 y up or -1..1 y up, w positive or negative. Lengths become
+/// metres. Throws Error(data) naming the attribute when a matrix is singular or the result is no camera.
+Camera normalize_camera(Mat4 world_to_camera, Mat4 world_to_ndc, Window display, float pixel_aspect,
+                        double metres_per_unit);
 
 /// The camera in a part's header, nullopt when the attributes are not there.
-std::optional<Camera> camera_from_header(const ExrReader& file, int part, const CameraAttributes& names, double metres_per_unit);
+std::optional<Camera> camera_from_header(const ExrReader& file, int part, const CameraAttributes& names,
+                                         double metres_per_unit);
 
-/// A camera file (aftershade-camera(5)): per frame the two matrices, or a world matrix with focal length and aperture; near,
-/// far and unit for all. Throws Error(config) naming file, frame and key.
+/// A camera file (aftershade-camera(5)): per frame the two matrices, or a world matrix with focal length and aperture;
+/// near, far and unit for all. Throws Error(config) naming file, frame and key.
 class CameraFile {
  public:
   explicit CameraFile(const std::string& path);

@@ -23,8 +23,8 @@ struct ChannelInfo {
 
 /// One part of a file, flat and without subsampling or mip levels: anything else is refused when the file is opened.
 struct PartInfo {
-  std::string name;         ///< "" in most single-part files
-  std::string view;         ///< the part's view attribute, or ""
+  std::string name;  ///< "" in most single-part files
+  std::string view;  ///< the part's view attribute, or ""
   Window data_window;
   std::vector<ChannelInfo> channels;
   std::string compression;  ///< "none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"
@@ -47,8 +47,9 @@ struct ReadLimits {
   int64_t max_frame_bytes = int64_t{4} << 30;
 };
 
-/// An open EXR file. Every failure is Error(no_input) (missing, unreadable), Error(data) (not an EXR, damaged, truncated,
-/// deep, subsampled, mip- or rip-mapped, over the limits) with the path in the text. Not thread-safe; one a thread.
+/// An open EXR file. Every failure is Error(no_input) (missing, unreadable), Error(data) (not an EXR, damaged,
+/// truncated, deep, subsampled, mip- or rip-mapped, over the limits) with the path in the text. Not thread-safe; one a
+/// thread.
 class ExrReader {
  public:
   explicit ExrReader(const std::string& path, const ReadLimits& limits = {});

@@ -27,12 +27,12 @@ struct SourceOptions {
   Profile profile;
   std::map<std::string, std::string> channel_overrides;  ///< role name -> channel names, comma separated
   std::vector<Sibling> siblings;
-  std::optional<DepthKind> depth_kind;                    ///< overrides the profile
-  std::optional<double> near_plane, far_plane;            ///< stored units; needed by device depth
+  std::optional<DepthKind> depth_kind;          ///< overrides the profile
+  std::optional<double> near_plane, far_plane;  ///< stored units; needed by device depth
   double metres_per_unit = 1;
   std::shared_ptr<const CameraFile> camera_file;
-  std::optional<double> fov_deg;                          ///< horizontal; a camera without position
-  std::vector<std::string> ao_layers, blur_layers;        ///< layer names; empty: the beauty. "beauty" names the beauty
+  std::optional<double> fov_deg;                    ///< horizontal; a camera without position
+  std::vector<std::string> ao_layers, blur_layers;  ///< layer names; empty: the beauty. "beauty" names the beauty
   bool nan_is_error = false;
   ReadLimits limits;
 };
@@ -42,9 +42,9 @@ struct NanReport {
   std::map<std::string, int64_t> nan, infinite;
 };
 
-/// Frames from EXR files. Checks each header against the first frame's (display window, channels, pixel aspect: Error(data)
-/// with frame and both values). Converts depth, normals, velocity and camera to canonical form; NaN and Inf colours stay in
-/// the layers, counted.
+/// Frames from EXR files. Checks each header against the first frame's (display window, channels, pixel aspect:
+/// Error(data) with frame and both values). Converts depth, normals, velocity and camera to canonical form; NaN and Inf
+/// colours stay in the layers, counted.
 class FileSource final : public FrameSource {
  public:
   explicit FileSource(SourceOptions options);
@@ -69,8 +69,8 @@ class FileSource final : public FrameSource {
 /// Frames to EXR files: the source frame's file with changed layers and added channels (write_exr).
 struct SinkOptions {
   WriteOptions write;
-  std::function<std::string(int)> path;                    ///< output path of a frame
-  std::function<void(int, const std::string&)> on_note;    ///< notes of write_exr
+  std::function<std::string(int)> path;                  ///< output path of a frame
+  std::function<void(int, const std::string&)> on_note;  ///< notes of write_exr
 };
 class FileSink final : public FrameSink {
  public:

@@ -9,7 +9,8 @@
 #include "core/image/role.h"
 #include "core/io/exr_reader.h"
 
-/// Producer profiles: what a renderer or compositor calls its channels and how it encodes them, as data (configs/profiles).
+/// Producer profiles: what a renderer or compositor calls its channels and how it encodes them, as data
+/// (configs/profiles).
 namespace aftershade::io {
 
 enum class DepthKind { planar, ray, device, device_reversed, inverse };
@@ -19,19 +20,20 @@ enum class VelocityUnit { pixels, screen };  ///< screen: 1 is the whole width o
 /// How the stored numbers of a role become canonical ones; only the members of that role matter.
 struct Encoding {
   DepthKind depth_kind = DepthKind::planar;
-  double background_above = 1e8;       ///< depth at or above this (stored units) is background
-  bool zero_is_background = false;     ///< a stored depth of 0 is background
+  double background_above = 1e8;    ///< depth at or above this (stored units) is background
+  bool zero_is_background = false;  ///< a stored depth of 0 is background
   NormalSpace normal_space = NormalSpace::world;
   std::array<double, 3> scale{1, 1, 1};  ///< value = (stored - neutral) * scale, per channel
   double neutral = 0;
   VelocityUnit velocity_unit = VelocityUnit::pixels;
-  double sentinel_above = 0;           ///< |stored| at or above this is "no vector"; 0: none
-  bool multiply = false;               ///< ambient: product of the two channel groups (Blender's DiffInd x DiffCol)
+  double sentinel_above = 0;  ///< |stored| at or above this is "no vector"; 0: none
+  bool multiply = false;      ///< ambient: product of the two channel groups (Blender's DiffInd x DiffCol)
 };
 
-/// One way in which a role may be stored: channel name patterns (`*` any run of characters; view tokens are stripped first).
+/// One way in which a role may be stored: channel name patterns (`*` any run of characters; view tokens are stripped
+/// first).
 struct Candidate {
-  std::vector<std::string> channels;   ///< as many as the role has planes; twice as many with `multiply`
+  std::vector<std::string> channels;  ///< as many as the role has planes; twice as many with `multiply`
   Encoding encoding;
 };
 
@@ -42,9 +44,9 @@ struct CameraAttributes {
 
 struct Profile {
   std::string name, description;
-  struct Sign {                        ///< any one sign is enough to recognise the producer
-    std::string attribute, contains;   ///< attribute name (pattern) and, if not empty, a piece of its text
-    std::string channel;               ///< or a channel name pattern
+  struct Sign {                       ///< any one sign is enough to recognise the producer
+    std::string attribute, contains;  ///< attribute name (pattern) and, if not empty, a piece of its text
+    std::string channel;              ///< or a channel name pattern
   };
   std::vector<Sign> detect;
   std::vector<std::vector<std::string>> color;  ///< R G B [A], in order of preference

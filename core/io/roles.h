@@ -20,12 +20,13 @@ struct RoleBinding {
   Role role;
   std::vector<ChannelRef> channels;
   Encoding encoding;
-  std::string why;      ///< "profile blender: *.Depth.Z", "--channel depth=foo.Z", "--role depth=..."
-  int sibling = -1;     ///< index of the sibling sequence that holds it (FileSourceOptions::siblings), or -1: the file itself
+  std::string why;  ///< "profile blender: *.Depth.Z", "--channel depth=foo.Z", "--role depth=..."
+  int sibling =
+      -1;  ///< index of the sibling sequence that holds it (FileSourceOptions::siblings), or -1: the file itself
 };
 
 struct ColorBinding {
-  std::string layer;               ///< "" for the beauty
+  std::string layer;                 ///< "" for the beauty
   std::vector<ChannelRef> channels;  ///< R G B [A] or any set; in one part
   int alpha = -1;
   bool is_beauty = false;
@@ -34,9 +35,10 @@ struct ColorBinding {
 /// The views of a file: multiView, or the parts' view attributes; {""} when there are none.
 std::vector<std::string> views_of(const FileInfo& info);
 
-/// `channel` without its view token ("forward.left.u" -> "forward.u" for view "left"); nullopt when the channel belongs to
-/// another view.
-std::optional<std::string> name_in_view(const FileInfo& info, int part, const std::string& channel, const std::string& view);
+/// `channel` without its view token ("forward.left.u" -> "forward.u" for view "left"); nullopt when the channel belongs
+/// to another view.
+std::optional<std::string> name_in_view(const FileInfo& info, int part, const std::string& channel,
+                                        const std::string& view);
 
 /// The roles of a view: user overrides first ("depth" -> "foo.Z", comma lists for roles of several planes), else the
 /// profile's candidates in order. Throws Error(no_input) when an override names a channel that does not exist (with the

@@ -17,12 +17,12 @@ std::string format_frames(const FrameNumbers& frames);
 /// What one `#` stands for: one digit (Nuke, Blender, Gaffer), or OpenImageIO's four.
 enum class HashDigits { one, oiio };
 
-/// A file name with a place for the frame number. Understood: runs of # or @, %d and %04d, $F and $F4, and an inline range
-/// before the token (shot.1001-1100#.exr). Only the file name is searched, never the folder.
+/// A file name with a place for the frame number. Understood: runs of # or @, %d and %04d, $F and $F4, and an inline
+/// range before the token (shot.1001-1100#.exr). Only the file name is searched, never the folder.
 struct Pattern {
   std::string folder;  ///< "." when none was given
   std::string prefix, suffix;
-  int padding = 1;     ///< least number of digits; the sign is extra
+  int padding = 1;  ///< least number of digits; the sign is extra
   std::optional<FrameNumbers> range;
   bool has_token = true;  ///< false: a literal name without any frame number
   std::string path(int frame) const;
@@ -62,8 +62,8 @@ struct FoundSequence {
   Sequence sequence;  ///< every frame on disk that fits the pattern, whatever `range` says
 };
 
-/// INPUT is a pattern, a literal frame (its sequence is found beside it), or a folder that holds one EXR sequence. Throws
-/// Error(no_input) when there is nothing, and when a folder holds several sequences (they are listed).
+/// INPUT is a pattern, a literal frame (its sequence is found beside it), or a folder that holds one EXR sequence.
+/// Throws Error(no_input) when there is nothing, and when a folder holds several sequences (they are listed).
 FoundSequence find_sequence(const std::string& input, HashDigits hash);
 
 }  // namespace aftershade::io

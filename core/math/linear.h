@@ -19,7 +19,8 @@ inline double determinant3(const Mat4& m) {
   return row(0).dot(row(1).cross(row(2)));
 }
 
-/// nullopt when the matrix is singular, nearly so (elements of the inverse above 1e12 times 1 / largest element), or not finite.
+/// nullopt when the matrix is singular, nearly so (elements of the inverse above 1e12 times 1 / largest element), or
+/// not finite.
 inline std::optional<Mat4> inverse(const Mat4& m) {
   double largest = 0;
   for (int i = 0; i < 16; ++i) largest = std::fmax(largest, std::abs(m[i / 4][i % 4]));

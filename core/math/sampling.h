@@ -25,8 +25,7 @@ constexpr float unit_float(uint32_t bits) { return static_cast<float>(bits >> 8)
 constexpr std::array<float, 16> kBayer4x4 = [] {
   constexpr int order[16] = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
   std::array<float, 16> values{};
-  for (int i = 0; i < 16; ++i)
-    values[static_cast<size_t>(i)] = (static_cast<float>(order[i]) + 0.5F) / 16.0F;
+  for (int i = 0; i < 16; ++i) values[static_cast<size_t>(i)] = (static_cast<float>(order[i]) + 0.5F) / 16.0F;
   return values;
 }();
 

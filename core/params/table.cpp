@@ -1,7 +1,8 @@
 #include "core/params/table.h"
 
-#include <charconv>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -15,30 +16,44 @@ Json json_of(float value) {
 
 namespace {
 
+/// 5.0 is whole, as JSON Schema says.
+bool is_whole(const Json& value) {
+  if (value.is_number_float()) return std::trunc(value.get<double>()) == value.get<double>();
+  return value.is_number_integer();
+}
+
 bool has_kind(const Record& record, const Json& value) {
   switch (record.kind) {
-    case Kind::number: return value.is_number();
-    case Kind::integer: return value.is_number_integer();
-    case Kind::boolean: return value.is_boolean();
+    case Kind::number:
+      return value.is_number();
+    case Kind::integer:
+      return is_whole(value);
+    case Kind::boolean:
+      return value.is_boolean();
     case Kind::choice:
-    case Kind::text: return value.is_string();
+    case Kind::text:
+      return value.is_string();
   }
   return false;
 }
 
 const char* kind_text(Kind kind) {
   switch (kind) {
-    case Kind::number: return "a number";
-    case Kind::integer: return "a whole number";
-    case Kind::boolean: return "true or false";
+    case Kind::number:
+      return "a number";
+    case Kind::integer:
+      return "a whole number";
+    case Kind::boolean:
+      return "true or false";
     case Kind::choice:
-    case Kind::text: return "a text in quotes";
+    case Kind::text:
+      return "a text in quotes";
   }
   return "";
 }
 
 [[noreturn]] void fail(const Record& record, std::string_view where, const std::string& what, const std::string& hint) {
-  throw Error(ErrorCode::config, cat(where, ".", record.key, ": ", what), hint);
+  throw Error(ErrorCode::config, cat(where, ": ", record.key, ": ", what), hint);
 }
 
 }  // namespace
@@ -57,15 +72,19 @@ void check(const Record& record, const Json& value, std::string_view where) {
     fail(record, where, value.dump() + " is out of range " + domain_text(record), record.doc);
 }
 
+void unknown_key(std::string_view key, std::span<const std::string> known, std::string_view where) {
+  const std::string guess = did_you_mean(key, known);
+  throw Error(ErrorCode::config, cat(where, ": unknown key \"", key, "\""),
+              guess.empty() ? "known keys: " + join(known, ", ") : guess);
+}
+
 const Record& find(const Table& table, std::string_view key, std::string_view where) {
   std::vector<std::string> keys;
   for (const Record& record : table) {
     if (record.key == key) return record;
     keys.push_back(record.key);
   }
-  std::string hint = did_you_mean(key, keys);
-  if (hint.empty()) hint = "known keys: " + join(keys, ", ");
-  throw Error(ErrorCode::config, cat(where, ": unknown key \"", key, "\""), hint);
+  unknown_key(key, keys, where);
 }
 
 void read(const Table& table, void* target, const Json& object, std::string_view where) {
@@ -90,7 +109,7 @@ Json parse_value(const Record& record, std::string_view text, std::string_view w
     value = text == "true";
   } else if (const auto integer = parse_integer(text)) {
     value = *integer;
-  } else if (const auto number = parse_number(text)) {
+  } else if (const auto number = parse_number(text); number && std::isfinite(*number)) {
     value = *number;
   } else {
     value = std::string(text);
@@ -98,6 +117,12 @@ Json parse_value(const Record& record, std::string_view text, std::string_view w
   check(record, value, where);
   return value;
 }
+
+namespace {
+Json bound(const Record& record, double value) {
+  return record.kind == Kind::integer ? Json(static_cast<long>(value)) : Json(value);
+}
+}  // namespace
 
 Json schema_properties(const Table& table) {
   Json properties = Json::object();
@@ -107,12 +132,18 @@ Json schema_properties(const Table& table) {
       case Kind::number:
       case Kind::integer:
         entry["type"] = record.kind == Kind::number ? "number" : "integer";
-        entry["minimum"] = record.range.min;
-        entry["maximum"] = record.range.max;
+        entry["minimum"] = bound(record, record.range.min);
+        entry["maximum"] = bound(record, record.range.max);
         break;
-      case Kind::boolean: entry["type"] = "boolean"; break;
-      case Kind::choice: entry["enum"] = record.choices; break;
-      case Kind::text: entry["type"] = "string"; break;
+      case Kind::boolean:
+        entry["type"] = "boolean";
+        break;
+      case Kind::choice:
+        entry["enum"] = record.choices;
+        break;
+      case Kind::text:
+        entry["type"] = "string";
+        break;
     }
     entry["default"] = record.default_value;
     entry["description"] = record.doc;
@@ -120,13 +151,30 @@ Json schema_properties(const Table& table) {
   return properties;
 }
 
+std::string_view unit(const Record& record) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kSuffixes{{{"_m", "m"},
+                                                                                    {"_px", "px"},
+                                                                                    {"_deg", "deg"},
+                                                                                    {"_texels", "texels"},
+                                                                                    {"_footprints", "footprints"},
+                                                                                    {"_frames", "frames"}}};
+  if (record.kind != Kind::number && record.kind != Kind::integer) return "";
+  for (const auto& [suffix, name] : kSuffixes)
+    if (record.key.ends_with(suffix)) return name;
+  return "";
+}
+
 std::string domain_text(const Record& record) {
   switch (record.kind) {
     case Kind::number:
-    case Kind::integer: return cat(record.range.min, " to ", record.range.max);
-    case Kind::boolean: return "true or false";
-    case Kind::choice: return "one of " + join(record.choices, ", ");
-    case Kind::text: return "any text";
+    case Kind::integer:
+      return cat(record.range.min, " to ", record.range.max, unit(record).empty() ? "" : " ", unit(record));
+    case Kind::boolean:
+      return "true or false";
+    case Kind::choice:
+      return "one of " + join(record.choices, ", ");
+    case Kind::text:
+      return "any text";
   }
   return "";
 }

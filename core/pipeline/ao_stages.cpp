@@ -102,7 +102,9 @@ class ApplyAo final : public Stage {
 }  // namespace
 
 std::unique_ptr<Stage> make_stage(const ao::ScalableAoParams& params) { return std::make_unique<ScalableAo>(params); }
-std::unique_ptr<Stage> make_stage(const filter::BilateralBlurParams& params) { return std::make_unique<BilateralBlur>(params); }
+std::unique_ptr<Stage> make_stage(const filter::BilateralBlurParams& params) {
+  return std::make_unique<BilateralBlur>(params);
+}
 std::unique_ptr<Stage> make_stage(const filter::BilateralUpsampleParams& params) {
   return std::make_unique<BilateralUpsample>(params);
 }

@@ -22,7 +22,8 @@ double energy(const Layer& layer, Window window, Window inner, bool inside) {
     for (int y = 0; y < window.height(); ++y)
       for (int x = 0; x < window.width(); ++x) {
         const float value = layer.planes[c](x, y);
-        if (inner.contains(x + window.min_x, y + window.min_y) == inside && std::isfinite(value)) sum += std::abs(value);
+        if (inner.contains(x + window.min_x, y + window.min_y) == inside && std::isfinite(value))
+          sum += std::abs(value);
       }
   return sum;
 }
@@ -45,8 +46,8 @@ class ScalableBlur final : public Stage {
     const Window data = frame.window;
     work.change_window(blurred_window(frame, radius));
     const motionblur::HalfVelocity velocity = half_velocity(work, static_cast<float>(radius));
-    const motionblur::BlurInput input{frame.has(Role::depth) ? ConstPlaneView(frame.depth()) : ConstPlaneView(), &velocity,
-                                      frame.window, frame.display.height()};
+    const motionblur::BlurInput input{frame.has(Role::depth) ? ConstPlaneView(frame.depth()) : ConstPlaneView(),
+                                      &velocity, frame.window, frame.display.height()};
     motionblur::HalfVelocity tiles;
     for (Layer& layer : frame.layers)
       if (layer.receives_blur) blur(layer, input, work.options.diagnostics ? &tiles : nullptr);
@@ -65,8 +66,9 @@ class ScalableBlur final : public Stage {
     const auto plane = [&](Role role, size_t i) {
       return work.frame.has(role) ? ConstPlaneView(work.frame.planes(role)[i]) : ConstPlaneView();
     };
-    return motionblur::half_velocity(plane(Role::velocity_prev, 0), plane(Role::velocity_prev, 1), plane(Role::velocity_next, 0),
-                                     plane(Role::velocity_next, 1), shutter_frames(work), radius);
+    return motionblur::half_velocity(plane(Role::velocity_prev, 0), plane(Role::velocity_prev, 1),
+                                     plane(Role::velocity_next, 0), plane(Role::velocity_next, 1), shutter_frames(work),
+                                     radius);
   }
 
   float shutter_frames(Work& work) const {
@@ -93,15 +95,18 @@ class ScalableBlur final : public Stage {
   }
 
   static void add_tiles(Frame& frame, const motionblur::HalfVelocity& tiles, int tile) {
-    for (const auto& [name, source] : {std::pair{"aftershade.tile_velocity.x", &tiles.x}, {"aftershade.tile_velocity.y", &tiles.y}}) {
+    for (const auto& [name, source] :
+         {std::pair{"aftershade.tile_velocity.x", &tiles.x}, {"aftershade.tile_velocity.y", &tiles.y}}) {
       if (source->empty()) continue;
       Plane plane(frame.window.width(), frame.window.height());
       const auto tile_of = [tile](int absolute, int first) {
-        return static_cast<int>(std::floor(static_cast<double>(absolute) / tile) - std::floor(static_cast<double>(first) / tile));
+        return static_cast<int>(std::floor(static_cast<double>(absolute) / tile) -
+                                std::floor(static_cast<double>(first) / tile));
       };
       for_rows(plane.height(), [&](int y) {
         for (int x = 0; x < plane.width(); ++x)
-          plane(x, y) = (*source)(tile_of(x + frame.window.min_x, frame.window.min_x), tile_of(y + frame.window.min_y, frame.window.min_y));
+          plane(x, y) = (*source)(tile_of(x + frame.window.min_x, frame.window.min_x),
+                                  tile_of(y + frame.window.min_y, frame.window.min_y));
       });
       frame.added[name] = std::move(plane);
     }
@@ -112,6 +117,8 @@ class ScalableBlur final : public Stage {
 
 }  // namespace
 
-std::unique_ptr<Stage> make_stage(const motionblur::ScalableBlurParams& params) { return std::make_unique<ScalableBlur>(params); }
+std::unique_ptr<Stage> make_stage(const motionblur::ScalableBlurParams& params) {
+  return std::make_unique<ScalableBlur>(params);
+}
 
 }  // namespace aftershade::pipeline

@@ -12,17 +12,17 @@ struct Offer {
 
 /// What a stage declares about itself, given what there is.
 struct Needs {
-  RoleSet required;                ///< roles without which the stage cannot run
-  RoleSet any_of;                  ///< at least one of these (empty: no such demand)
-  RoleSet optional;                ///< roles it uses if they are there
-  RoleSet previous;                ///< roles it reads of frame f-1
-  bool lens = false;               ///< needs to know the field of view
-  bool ao = false;                 ///< works on AO made by an earlier stage ...
-  bool ao_at_pixels = false;       ///< ... which must be at full resolution by then
+  RoleSet required;           ///< roles without which the stage cannot run
+  RoleSet any_of;             ///< at least one of these (empty: no such demand)
+  RoleSet optional;           ///< roles it uses if they are there
+  RoleSet previous;           ///< roles it reads of frame f-1
+  bool lens = false;          ///< needs to know the field of view
+  bool ao = false;            ///< works on AO made by an earlier stage ...
+  bool ao_at_pixels = false;  ///< ... which must be at full resolution by then
   bool makes_ao = false;
   bool makes_ao_at_pixels = false;
-  bool layers = false;             ///< changes layers
-  bool recursive = false;          ///< keeps history: a run starts `preroll` frames early
+  bool layers = false;     ///< changes layers
+  bool recursive = false;  ///< keeps history: a run starts `preroll` frames early
 };
 
 }  // namespace aftershade::pipeline

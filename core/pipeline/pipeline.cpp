@@ -18,7 +18,8 @@ void check_roles(const std::string& id, std::string_view method, const Needs& ne
   std::vector<std::string> any;
   bool found = needs.any_of.empty();
   for (const RoleInfo& role : kRoles) {
-    if (needs.required.contains(role.role) && !offer.roles.contains(role.role)) fail_role(id, method, std::string(role.name));
+    if (needs.required.contains(role.role) && !offer.roles.contains(role.role))
+      fail_role(id, method, std::string(role.name));
     if (!needs.any_of.contains(role.role)) continue;
     any.emplace_back(role.name);
     found = found || offer.roles.contains(role.role);
@@ -26,7 +27,9 @@ void check_roles(const std::string& id, std::string_view method, const Needs& ne
   if (!found) fail_role(id, method, join(any, " or "));
   if (needs.lens && !offer.lens)
     throw Error(ErrorCode::no_input, cat("stage ", id, " (", method, ") needs to know the camera's field of view"),
-                "the header has no camera matrices: give --fov DEGREES or --camera FILE.json, or leave the stage out with --skip " + id);
+                "the header has no camera matrices: give --fov DEGREES or --camera FILE.json, or leave the stage out "
+                "with --skip " +
+                    id);
 }
 
 void check_order(const std::string& id, const Needs& needs, bool ao, bool ao_at_pixels) {
@@ -34,7 +37,8 @@ void check_order(const std::string& id, const Needs& needs, bool ao, bool ao_at_
     throw Error(ErrorCode::config, cat("stage ", id, " works on AO, but no stage before it makes any"),
                 "put an AO stage before it, or leave it out with --skip " + id);
   if (needs.ao_at_pixels && !ao_at_pixels)
-    throw Error(ErrorCode::config, cat("stage ", id, " needs AO at full resolution"), "put a bilateral-upsample stage before it");
+    throw Error(ErrorCode::config, cat("stage ", id, " needs AO at full resolution"),
+                "put a bilateral-upsample stage before it");
 }
 
 }  // namespace

@@ -16,22 +16,22 @@ namespace aftershade::pipeline {
 /// What a run adds to the files besides the changed layers.
 struct Outputs {
   std::optional<std::string> ao_channel;  ///< name of the channel that receives the AO
-  bool layers = true;                     ///< false: only added channels are wanted, stages that change layers are left out
+  bool layers = true;  ///< false: only added channels are wanted, stages that change layers are left out
   WorkOptions work;
 };
 
 /// The stages of a preset at work on one view, frame after frame.
 class ViewPipeline {
  public:
-  /// Checks every stage's needs against what the view offers. Throws Error(no_input) naming stage and role that is missing,
-  /// Error(config) for an order of stages that cannot work (apply before AO, AO not at full resolution).
+  /// Checks every stage's needs against what the view offers. Throws Error(no_input) naming stage and role that is
+  /// missing, Error(config) for an order of stages that cannot work (apply before AO, AO not at full resolution).
   ViewPipeline(const preset::Preset& preset, std::string view, const Offer& offer, const Outputs& outputs);
 
   const std::string& view() const { return view_; }
   bool recursive() const { return last_recursive_ >= 0; }
   bool changes_layers() const;
-  RoleSet roles(bool written) const;     ///< to load of the frame itself
-  RoleSet previous_roles() const;        ///< to load of the frame before it
+  RoleSet roles(bool written) const;  ///< to load of the frame itself
+  RoleSet previous_roles() const;     ///< to load of the frame before it
 
   struct StageTime {
     std::string id;

@@ -5,7 +5,8 @@
 
 namespace aftershade::pipeline {
 
-std::vector<PlannedFrame> plan(const std::vector<int>& written, const std::vector<int>& on_disk, bool recursive, int preroll) {
+std::vector<PlannedFrame> plan(const std::vector<int>& written, const std::vector<int>& on_disk, bool recursive,
+                               int preroll) {
   std::set<int> visited(written.begin(), written.end());
   for (const int frame : written) {
     if (!recursive) break;

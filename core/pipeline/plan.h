@@ -14,8 +14,10 @@ struct PlannedFrame {
 /// Preroll of all frames before the first written one: exact.
 inline constexpr int kPrerollAll = -1;
 
-/// The frames to visit, in order, so that every one of `written` can be made. `on_disk` and `written` are sorted. A recursive
-/// pipeline also visits up to `preroll` consecutive frames before each written one; a gap on disk ends the history.
-std::vector<PlannedFrame> plan(const std::vector<int>& written, const std::vector<int>& on_disk, bool recursive, int preroll);
+/// The frames to visit, in order, so that every one of `written` can be made. `on_disk` and `written` are sorted. A
+/// recursive pipeline also visits up to `preroll` consecutive frames before each written one; a gap on disk ends the
+/// history.
+std::vector<PlannedFrame> plan(const std::vector<int>& written, const std::vector<int>& on_disk, bool recursive,
+                               int preroll);
 
 }  // namespace aftershade::pipeline

@@ -22,7 +22,8 @@ Progress visit(std::vector<ViewPipeline>& views, FrameSource& source, FrameSink&
     if (!planned.written && !view.recursive()) continue;
     Frame frame = load_or_fail(source, planned.number, view.view(), view.roles(planned.written), planned.written);
     std::optional<Frame> previous;
-    if (!view.previous_roles().empty()) previous = source.load(planned.number - 1, view.view(), view.previous_roles(), false);
+    if (!view.previous_roles().empty())
+      previous = source.load(planned.number - 1, view.view(), view.previous_roles(), false);
     progress.results.push_back(view.run(frame, previous ? &*previous : nullptr, planned.written, planned.restarts));
     frames.push_back(std::move(frame));
   }
@@ -42,12 +43,14 @@ size_t run(std::vector<ViewPipeline>& views, FrameSource& source, FrameSink& sin
     planned.restarts = planned.restarts || broken;
     const auto start = std::chrono::steady_clock::now();
     try {
-      Progress progress = with_context(cat("frame ", planned.number), [&] { return visit(views, source, sink, planned); });
+      Progress progress =
+          with_context(cat("frame ", planned.number), [&] { return visit(views, source, sink, planned); });
       broken = false;
       done += planned.written ? 1 : 0;
       progress.done = done;
       progress.total = options.written.size();
-      progress.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+      progress.milliseconds =
+          std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
       if (options.on_progress) options.on_progress(progress);
     } catch (const Error& error) {
       if (!options.keep_going) throw;

@@ -29,8 +29,8 @@ class SelectiveTemporal final : public Stage {
   void run(Work& work) override {
     const filter::Surface& surface = work.surface();
     const Plane mask = stable_mask(work, surface);
-    work.ao = temporal::selective_temporal_filter(params_, work.ao, surface.depth, mask, reprojected(work), work.frame.window,
-                                                  history_);
+    work.ao = temporal::selective_temporal_filter(params_, work.ao, surface.depth, mask, reprojected(work),
+                                                  work.frame.window, history_);
     camera_before_ = work.frame.camera;
     if (!work.options.diagnostics) return;
     work.frame.added["aftershade.mask"] = copy_of(mask);
@@ -41,7 +41,8 @@ class SelectiveTemporal final : public Stage {
   Plane stable_mask(Work& work, const filter::Surface& surface) const {
     if (!params_.selective) return Plane(surface.depth.width, surface.depth.height, 0.0F);
     const Plane continuous = temporal::continuity_mask(params_, *work.grid, surface);
-    return temporal::mask_at_pixels(temporal::dilate_discontinuities(continuous, params_.dilation_texels), *work.grid, surface);
+    return temporal::mask_at_pixels(temporal::dilate_discontinuities(continuous, params_.dilation_texels), *work.grid,
+                                    surface);
   }
 
   temporal::Reprojected reprojected(Work& work) const {
@@ -57,7 +58,8 @@ class SelectiveTemporal final : public Stage {
       input.mv_prev_y = work.frame.planes(Role::velocity_prev)[1];
     } else if (work.previous && work.previous->has(Role::velocity_next)) {
       const auto& next = work.previous->planes(Role::velocity_next);
-      scattered = temporal::scatter_velocity(next[0], next[1], work.previous->depth(), work.previous->window, work.frame.window);
+      scattered = temporal::scatter_velocity(next[0], next[1], work.previous->depth(), work.previous->window,
+                                             work.frame.window);
       input.mv_prev_x = scattered.x;
       input.mv_prev_y = scattered.y;
       work.note("no backward vectors: those of the frame before are carried forward");

@@ -28,8 +28,8 @@ const filter::Surface& Work::surface(ao::NormalSource source) {
   const auto normal = [&](size_t i) {
     return from_file ? ConstPlaneView(frame.planes(Role::normal)[i]) : ConstPlaneView((*derived_normals_)[i]);
   };
-  surface_ = filter::Surface{frame.depth(),       normal(0),          normal(1), normal(2), projection, frame.window.min_x,
-                             frame.window.min_y, frame.display.height()};
+  surface_ = filter::Surface{frame.depth(), normal(0),          normal(1),          normal(2),
+                             projection,    frame.window.min_x, frame.window.min_y, frame.display.height()};
   return *surface_;
 }
 

@@ -17,10 +17,12 @@ struct WorkOptions {
   bool grow_data_window = false;  ///< blur may leave the data window (as far as the display window)
 };
 
-/// One view of one frame on its way through the stages: what was read, what stages hand to each other, what they report.
+/// One view of one frame on its way through the stages: what was read, what stages hand to each other, what they
+/// report.
 class Work {
  public:
-  Work(Frame& current, const Frame* before, const WorkOptions& wishes) : frame(current), previous(before), options(wishes) {}
+  Work(Frame& current, const Frame* before, const WorkOptions& wishes)
+      : frame(current), previous(before), options(wishes) {}
   Work(const Work&) = delete;
 
   Frame& frame;
@@ -31,13 +33,14 @@ class Work {
   Plane ao;                                ///< 1 = open; on the grid, later on every pixel
   bool ao_at_pixels = false;
 
-  /// The visible surface. The first caller decides whose normals are used: `automatic` takes the file's where it has some.
+  /// The visible surface. The first caller decides whose normals are used: `automatic` takes the file's where it has
+  /// some.
   const filter::Surface& surface(ao::NormalSource source = ao::NormalSource::automatic);
   /// Depth mips for taps far away.
   const filter::DepthPyramid& pyramid();
 
-  /// Lays the frame's planes and the AO into `window` (absolute coordinates): new pixels are background (depth +inf, velocity
-  /// unknown, AO 1, everything else 0), pixels outside are dropped.
+  /// Lays the frame's planes and the AO into `window` (absolute coordinates): new pixels are background (depth +inf,
+  /// velocity unknown, AO 1, everything else 0), pixels outside are dropped.
   void change_window(Window window);
 
   void note(std::string text) { notes.push_back(std::move(text)); }

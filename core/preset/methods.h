@@ -12,7 +12,8 @@
 namespace aftershade::preset {
 
 /// THE list of methods. A method is added by writing its files and putting its parameter struct here (and its stage in
-/// core/pipeline, which the compiler then asks for); JSON, --set, help, manual, schema and the property tests loop over it.
+/// core/pipeline, which the compiler then asks for); JSON, --set, help, manual, schema and the property tests loop over
+/// it.
 using StageParams = std::variant<ao::ScalableAoParams, filter::BilateralBlurParams, filter::BilateralUpsampleParams,
                                  temporal::SelectiveTemporalParams, ao::ApplyAoParams, motionblur::ScalableBlurParams>;
 
@@ -21,7 +22,8 @@ template <class Visit>
 void for_each_method(Visit&& visit) {
   [&]<size_t... I>(std::index_sequence<I...>) {
     (visit(std::type_identity<std::variant_alternative_t<I, StageParams>>{}), ...);
-  }(std::make_index_sequence<std::variant_size_v<StageParams>>{});
+  }
+  (std::make_index_sequence<std::variant_size_v<StageParams>>{});
 }
 
 }  // namespace aftershade::preset

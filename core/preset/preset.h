@@ -32,12 +32,16 @@ struct Resolved {
 /// Names of the shipped presets, sorted.
 std::vector<std::string> shipped_presets();
 
-/// A shipped preset by name or a .json file (a text with '/' or ending in .json is a file), its `extends` chain followed,
-/// then `sets` ("ao.radius_m=1.5") applied. Throws Error(config): unknown preset, stage, method or key with "did you mean",
-/// wrong type, out of range, extends in a circle, the same id twice; Error(no_input) for a file that cannot be read.
+/// A shipped preset by name or a .json file (a text with '/' or ending in .json is a file), its `extends` chain
+/// followed, then `sets` ("ao.radius_m=1.5") applied. Throws Error(config): unknown preset, stage, method or key with
+/// "did you mean", wrong type, out of range, extends in a circle, the same id twice; Error(no_input) for a file that
+/// cannot be read.
 Resolved load_preset(const std::string& name_or_file, const std::vector<std::string>& sets = {});
 
+/// Every parameter of every stage, nothing inherited: complete in itself. The name is not part of it.
 params::Json to_json(const Preset& preset);
+/// A preset file's content; `where` names the file in messages, is what "extends" is relative to, and gives the name (without
+/// folder and .json). from_json(to_json(p), p.name) == p. Throws as load_preset.
 Preset from_json(const params::Json& json, std::string_view where);
 
 /// Lines "ao.radius_m: 1 -> 1.5" of all that differs, in stage order; also stages that only one has.

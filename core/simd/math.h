@@ -11,12 +11,12 @@ inline Float exp2(Float x) {
   const Float clamped = clamp(x, -126.0F, 126.0F);
   const Float n = round(clamped);
   const Float f = clamped - n;
-  Float p = 1.5403530e-4F;      // (ln 2)^6 / 6!
-  p = p * f + 1.3333558e-3F;    // (ln 2)^5 / 5!
-  p = p * f + 9.6181291e-3F;    // (ln 2)^4 / 4!
-  p = p * f + 5.5504109e-2F;    // (ln 2)^3 / 3!
-  p = p * f + 2.4022651e-1F;    // (ln 2)^2 / 2!
-  p = p * f + 6.9314718e-1F;    // ln 2
+  Float p = 1.5403530e-4F;    // (ln 2)^6 / 6!
+  p = p * f + 1.3333558e-3F;  // (ln 2)^5 / 5!
+  p = p * f + 9.6181291e-3F;  // (ln 2)^4 / 4!
+  p = p * f + 5.5504109e-2F;  // (ln 2)^3 / 3!
+  p = p * f + 2.4022651e-1F;  // (ln 2)^2 / 2!
+  p = p * f + 6.9314718e-1F;  // ln 2
   p = p * f + 1.0F;
   const Float scale = float_of_bits((to_int(n) + Int(127)) << 23);
   return select(x < -126.0F, Float(0.0F), p * scale);

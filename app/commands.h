@@ -1,0 +1,81 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/option_table.h"
+
+/// What was typed, per command (not yet what will be done: see app/job.h), and the commands themselves.
+namespace aftershade::app {
+
+/// How INPUT becomes canonical frames: shared by render, inspect and sheet.
+struct InputArgs {
+  std::string input;
+  std::string frames;
+  std::string hash_digits = "one";
+  std::string missing = "error";
+  std::vector<std::string> views;
+  std::string profile;
+  std::vector<std::string> channels, roles;
+  std::string depth_kind, unit, camera;
+  std::optional<double> near_plane, far_plane, fov_deg;
+  std::vector<std::string> ao_layers, blur_layers;
+  std::string nan = "keep";
+};
+
+struct PresetArgs {
+  std::string preset = "high-dx11";
+  std::vector<std::string> sets, only, skip;
+};
+
+struct CommonArgs {
+  int threads = 0;
+  bool quiet = false, verbose = false;
+};
+
+struct RenderArgs : InputArgs, PresetArgs, CommonArgs {
+  std::string output;
+  bool ao = false, ao_only = false, diagnostics = false;
+  std::string data_window = "keep", compression, existing = "overwrite", progress = "auto";
+  bool keep_going = false, dry_run = false, print_config = false;
+  std::string preroll = "40";
+};
+
+struct InspectArgs : InputArgs, PresetArgs, CommonArgs {
+  bool json = false;
+};
+
+struct SheetArgs : CommonArgs {
+  std::string before, after, output, frames, hash_digits = "one";
+  int cell_width = 480;
+};
+
+struct PresetsArgs {
+  std::string action;
+  std::vector<std::string> names;
+  std::vector<std::string> sets;
+};
+
+const std::vector<Option<RenderArgs>>& render_options();
+const std::vector<Option<InspectArgs>>& inspect_options();
+const std::vector<Option<SheetArgs>>& sheet_options();
+const std::vector<Option<PresetsArgs>>& presets_options();
+
+/// Each runs one command to its end and returns the exit status; failures leave as Error.
+int render(const RenderArgs& args);
+int inspect(const InspectArgs& args);
+int sheet(const SheetArgs& args);
+int presets(const PresetsArgs& args);
+
+/// A command as help and manual show it.
+struct CommandText {
+  std::string name, synopsis, summary;
+  std::vector<OptionText> options;
+  std::vector<std::string> examples;
+};
+const std::vector<CommandText>& command_texts();
+
+/// Parses the command line and runs it; returns the exit status. Writes errors to stderr.
+int run_program(int argc, char** argv);
+
+}  // namespace aftershade::app

@@ -1,0 +1,193 @@
+#include "app/commands.h"
+
+namespace aftershade::app {
+
+namespace {
+
+template <class Args>
+void add_input(std::vector<Option<Args>>& t) {
+  t.push_back({"--frames", "RANGE", &Args::frames,
+               "frames to work on: 1001-1100, 1001-1100x2, -5-10, 1,5,7-9; neighbours are read from disk as needed"});
+  t.push_back({"--hash-digits",
+               "MEANING",
+               &Args::hash_digits,
+               "what one # stands for: one digit, or OpenImageIO's four",
+               {"one", "oiio"}});
+  t.push_back({"--missing",
+               "POLICY",
+               &Args::missing,
+               "what to do about holes in the sequence, before frame 1",
+               {"error", "skip"}});
+  t.push_back({"--view", "NAME", &Args::views, "a view of a multi-view file; may be repeated; all views by default"});
+  t.push_back({"--profile", "NAME|FILE", &Args::profile, "producer profile; recognised from the file by default"});
+  t.push_back({"--channel", "ROLE=NAMES", &Args::channels,
+               "the channels of a role, such as depth=foo.Z or velocity_next=mv.x,mv.y; roles: color, depth, normal, "
+               "velocity_prev, velocity_next, ambient, ao"});
+  t.push_back(
+      {"--role", "ROLE=INPUT", &Args::roles, "takes a role from another sequence, such as depth=depth.####.exr"});
+  t.push_back({"--depth-kind",
+               "KIND",
+               &Args::depth_kind,
+               "how depth is stored",
+               {"planar", "ray", "device", "device-reversed", "inverse"}});
+  t.push_back({"--near", "LENGTH", &Args::near_plane, "near clip plane in the file's unit, for device depth"});
+  t.push_back({"--far", "LENGTH", &Args::far_plane, "far clip plane in the file's unit, for device depth"});
+  t.push_back({"--unit", "UNIT", &Args::unit, "unit of length in the files: m, cm, mm, ft or metres per unit"});
+  t.push_back({"--camera", "FILE.json", &Args::camera,
+               "camera file for the sequence, see aftershade-camera(5); used where the header has no matrices"});
+  t.push_back({"--fov", "DEGREES", &Args::fov_deg, "horizontal field of view, when nothing else tells it"});
+  t.push_back(
+      {"--ao-layers", "NAME", &Args::ao_layers, "a layer to darken by AO; may be repeated; the beauty by default"});
+  t.push_back({"--blur-layers", "NAME", &Args::blur_layers,
+               "a layer to blur; may be repeated; the beauty with its alpha by default"});
+  t.push_back(
+      {"--nan", "POLICY", &Args::nan, "pixels that are no numbers: keep and count them, or fail", {"keep", "error"}});
+}
+
+template <class Args>
+void add_preset(std::vector<Option<Args>>& t) {
+  t.push_back({"-p,--preset", "NAME|FILE", &Args::preset,
+               "shipped preset or preset file, see aftershade-preset(5); high-dx11 by default"});
+  t.push_back({"--set", "ID.KEY=VALUE", &Args::sets, "changes one value of the preset; may be repeated"});
+  t.push_back({"--only", "ID", &Args::only, "runs only this stage of the preset; may be repeated"});
+  t.push_back({"--skip", "ID", &Args::skip, "leaves this stage of the preset out; may be repeated"});
+}
+
+template <class Args>
+void add_common(std::vector<Option<Args>>& t) {
+  t.push_back({"--threads", "N", &Args::threads, "threads to use; 0: all that the machine allows"});
+  t.push_back({"-q,--quiet", "", &Args::quiet, "errors only"});
+  t.push_back({"-v,--verbose", "", &Args::verbose, "says more: stages and their times, every note of every frame"});
+}
+
+}  // namespace
+
+const std::vector<Option<RenderArgs>>& render_options() {
+  static const std::vector<Option<RenderArgs>> table = [] {
+    using Args = RenderArgs;
+    std::vector<Option<Args>> t;
+    t.push_back({"input",
+                 "INPUT",
+                 &Args::input,
+                 "a pattern (shot.####.exr, shot.%04d.exr, shot.@@@@.exr, shot.$F4.exr, shot.1001-1100#.exr), a frame, "
+                 "or a folder",
+                 {},
+                 true});
+    t.push_back({"-o,--output",
+                 "OUTPUT",
+                 &Args::output,
+                 "a pattern with a frame token, an existing folder (input names are kept), or a file for one frame",
+                 {},
+                 true});
+    add_preset(t);
+    t.push_back({"--ao", "", &Args::ao,
+                 "also writes the AO as channel AO (aftershade.AO if the file has an AO), half, 1 = open"});
+    t.push_back({"--ao-only", "", &Args::ao_only, "writes files with the AO channel alone"});
+    t.push_back({"--diagnostics", "", &Args::diagnostics,
+                 "also writes the stages' intermediate results as channels aftershade.*"});
+    t.push_back({"--data-window",
+                 "POLICY",
+                 &Args::data_window,
+                 "what blur does that leaves the data window: cut it off, or let the window grow",
+                 {"keep", "grow"}});
+    t.push_back({"--compression", "NAME", &Args::compression,
+                 "compression of changed parts: none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa, dwab, or keep; by "
+                 "default kept unless lossy"});
+    t.push_back({"--existing",
+                 "POLICY",
+                 &Args::existing,
+                 "what to do about output files that exist; skip leaves complete ones",
+                 {"overwrite", "skip", "error"}});
+    t.push_back({"--keep-going", "", &Args::keep_going,
+                 "goes on after a frame that fails; the exit status is that of the first failure"});
+    t.push_back({"--preroll", "FRAMES", &Args::preroll,
+                 "frames filtered before the first written one to build up history; all is exact"});
+    t.push_back({"--progress", "KIND", &Args::progress, "progress on stderr", {"auto", "bar", "plain", "none"}});
+    t.push_back(
+        {"-n,--dry-run", "", &Args::dry_run, "checks everything, prints what would be written, writes nothing"});
+    t.push_back({"--print-config", "", &Args::print_config,
+                 "prints every value of the preset and where it came from, writes nothing"});
+    add_input(t);
+    add_common(t);
+    return t;
+  }();
+  return table;
+}
+
+const std::vector<Option<InspectArgs>>& inspect_options() {
+  static const std::vector<Option<InspectArgs>> table = [] {
+    using Args = InspectArgs;
+    std::vector<Option<Args>> t;
+    t.push_back({"input", "INPUT", &Args::input, "a pattern, a frame, or a folder, as for render", {}, true});
+    t.push_back({"--json", "", &Args::json, "prints JSON"});
+    add_preset(t);
+    add_input(t);
+    add_common(t);
+    return t;
+  }();
+  return table;
+}
+
+const std::vector<Option<SheetArgs>>& sheet_options() {
+  static const std::vector<Option<SheetArgs>> table = [] {
+    using Args = SheetArgs;
+    std::vector<Option<Args>> t;
+    t.push_back({"before", "BEFORE", &Args::before, "the sequence before: a pattern, a frame, or a folder", {}, true});
+    t.push_back(
+        {"after", "AFTER", &Args::after, "the sequence after; its AO channel is shown if it has one", {}, true});
+    t.push_back({"-o,--output", "FILE.png", &Args::output, "the picture to write", {}, true});
+    t.push_back({"--frames", "RANGE", &Args::frames, "frames to show, a row each; first, middle and last by default"});
+    t.push_back({"--cell-width", "PIXELS", &Args::cell_width, "width of one picture in the sheet"});
+    t.push_back({"--hash-digits",
+                 "MEANING",
+                 &Args::hash_digits,
+                 "what one # stands for: one digit, or OpenImageIO's four",
+                 {"one", "oiio"}});
+    add_common(t);
+    return t;
+  }();
+  return table;
+}
+
+const std::vector<Option<PresetsArgs>>& presets_options() {
+  static const std::vector<Option<PresetsArgs>> table = {
+      {"action",
+       "ACTION",
+       &PresetsArgs::action,
+       "list; show NAME; validate FILE...; diff A B; schema",
+       {"list", "show", "validate", "diff", "schema"},
+       true},
+      {"names", "NAME|FILE", &PresetsArgs::names, "preset names or files"},
+      {"--set", "ID.KEY=VALUE", &PresetsArgs::sets, "changes one value before showing; may be repeated"},
+  };
+  return table;
+}
+
+const std::vector<CommandText>& command_texts() {
+  static const std::vector<CommandText> texts = {
+      {"render",
+       "INPUT -o OUTPUT [OPTION]...",
+       "applies a preset to a sequence",
+       texts_of(render_options()),
+       {"aftershade render shot.####.exr -o out/ --preset high-dx11",
+        "aftershade render shot.1001.exr -o out/shot.####.exr --frames 1001-1100 --set ao.radius_m=0.5 --ao"}},
+      {"inspect",
+       "INPUT [OPTION]...",
+       "prints what was recognised in a sequence, and why",
+       texts_of(inspect_options()),
+       {"aftershade inspect shot.####.exr"}},
+      {"presets",
+       "ACTION [NAME|FILE]...",
+       "lists, shows, checks and compares presets",
+       texts_of(presets_options()),
+       {"aftershade presets diff high-current-gen high-dx11"}},
+      {"sheet",
+       "BEFORE AFTER -o FILE.png [OPTION]...",
+       "makes a contact sheet: before, AO, after",
+       texts_of(sheet_options()),
+       {"aftershade sheet shot.####.exr out/ -o sheet.png --frames 1001,1010,1020"}},
+  };
+  return texts;
+}
+
+}  // namespace aftershade::app

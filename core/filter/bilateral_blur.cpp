@@ -1,0 +1,44 @@
+#include "core/filter/bilateral_blur.h"
+
+#include <cmath>
+
+#include "core/filter/bilateral_blur_kernel.h"
+#include "core/parallel/rows.h"
+
+namespace aftershade::filter {
+
+const params::Table& BilateralBlurParams::table() {
+  using P = BilateralBlurParams;
+  static const params::Table records =
+      params::TableBuilder<P>()
+          .add("radius_px", &P::radius_px, {0, 64},
+               "Reach of the blur to each side, in texels of the AO's own grid at the reference height; 0 switches it off.")
+          .add("reference_height_px", &P::reference_height_px, {1, 65536},
+               "Image height at which radius_px is meant; at other heights the radius scales with the height.")
+          .add("edge_distance_m", &P::edge_distance_m, {0, 1000},
+               "Distance from a pixel's tangent plane at which another pixel's share has fallen to a half.")
+          .add("edge_footprints", &P::edge_footprints, {0.1, 100},
+               "The same distance in texel footprints at the pixel's depth; the larger of the two counts.")
+          .build();
+  return records;
+}
+
+Plane bilateral_blur(const BilateralBlurParams& params, ConstPlaneView value, const SampleGrid& grid, const Surface& surface) {
+  const float radius = scaled_px(params.radius_px, params.reference_height_px, surface.display_height);
+  if (!(radius > 0)) return copy_of(value);
+  const int reach = static_cast<int>(std::ceil(radius));
+  const float sigma = (radius + 1) / 2;
+  const EdgeTolerance tolerance(params.edge_distance_m, params.edge_footprints, grid.step, surface.projection);
+  const auto pass = [&](ConstPlaneView in, int dx, int dy) {
+    Plane out(in.width, in.height);
+    for_rows(in.height, [&](int y) {
+      bilateral_blur_row({GridSamples(grid), NormalSamples(surface), Lens(surface.projection), tolerance, Samples(in), dx, dy,
+                          reach, radius - static_cast<float>(reach - 1), 1 / (2 * sigma * sigma), out.row(y)},
+                         y);
+    });
+    return out;
+  };
+  return pass(pass(value, 1, 0), 0, 1);
+}
+
+}  // namespace aftershade::filter

@@ -1,0 +1,158 @@
+#include "core/preview/module.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imageio.h>
+
+#include <array>
+#include <new>
+
+#include "core/base/text.h"
+#include "core/color/display.h"
+#include "core/preview/sheet_layout.h"
+#include "core/preview/text.h"
+
+namespace aftershade::preview {
+
+namespace {
+
+constexpr int kMaxSide_px = 65500;
+/// Display value of the background: neutral and dark, so that it sways neither colour nor the eye's exposure.
+constexpr float kBackground = 0.12F;
+
+/// Runs `work`; what it throws becomes the value `error`.
+template <class Work>
+void guarded(std::optional<Error>& error, Work&& work) noexcept {
+  try {
+    work();
+  } catch (const Error& e) {
+    error = e;
+  } catch (const std::bad_alloc&) {
+    error = Error(ErrorCode::memory, "not enough memory for the picture", "choose fewer frames or smaller cells");
+  } catch (const std::exception& e) {
+    error = Error(ErrorCode::internal, e.what());
+  }
+}
+
+[[noreturn]] void fail(std::string_view what, const std::string& why) {
+  throw Error(ErrorCode::internal, cat("OpenImageIO cannot ", what, ": ", why));
+}
+
+/// OpenImageIO's view of a plane. It declares what it reads as writable.
+OIIO::ImageBuf wrapped(PlaneView plane) {
+  constexpr auto kFloatBytes = static_cast<OIIO::stride_t>(sizeof(float));
+  return OIIO::ImageBuf(OIIO::ImageSpec(plane.width, plane.height, 1, OIIO::TypeDesc::FLOAT), plane.data, kFloatBytes,
+                        plane.stride * kFloatBytes);
+}
+
+void resize(PlaneView source, PlaneView target, int threads, std::optional<Error>& error) noexcept {
+  guarded(error, [&] {
+    OIIO::ImageBuf out = wrapped(target);
+    if (!OIIO::ImageBufAlgo::resize(out, wrapped(source), "mitchell", 0.0F, {}, threads))
+      fail("scale a picture", out.geterror());
+  });
+}
+
+struct Lettering {
+  std::optional<std::string> font;  ///< nullopt: no text
+  int title_height_px = 0, label_height_px = 0;
+};
+
+Lettering lettering_of(const Sheet& sheet) {
+  bool labels = false;
+  for (const auto& row : sheet.rows)
+    for (const Cell& cell : row) labels = labels || !cell.label.empty();
+  if (!labels && sheet.title.empty()) return {};
+  Lettering out{.font = usable_font(sheet.style.font)};
+  if (!out.font) return out;
+  if (!sheet.title.empty()) out.title_height_px = sheet.style.title_size_px * 3 / 2;
+  if (labels) out.label_height_px = sheet.style.label_size_px * 7 / 4;
+  return out;
+}
+
+CellSize size_of(const Cell& cell, const SheetStyle& style, const Lettering& lettering) {
+  CellSize out;
+  if (!cell.planes.empty()) out.picture = {cell.planes[0].width(), cell.planes[0].height()};
+  if (lettering.font)
+    out.label_width_px = std::min(text_width(cell.label, style.label_size_px, *lettering.font), style.max_cell_width_px);
+  return out;
+}
+
+SheetLayout layout_of(const Sheet& sheet, const Lettering& lettering) {
+  std::vector<std::vector<CellSize>> rows;
+  for (const auto& row : sheet.rows) {
+    auto& sizes = rows.emplace_back();
+    for (const Cell& cell : row) sizes.push_back(size_of(cell, sheet.style, lettering));
+  }
+  SheetLayout layout = lay_out(rows, {sheet.style.gap_px, lettering.title_height_px, lettering.label_height_px});
+  if (layout.sheet.width > kMaxSide_px || layout.sheet.height > kMaxSide_px)
+    throw Error(ErrorCode::usage, cat("the sheet would have ", layout.sheet.width, " x ", layout.sheet.height, " pixels"),
+                "choose fewer frames or smaller cells");
+  return layout;
+}
+
+void draw_picture(OIIO::ImageBuf& canvas, const Box& box, std::vector<Plane>& planes) {
+  if (planes.empty()) return;
+  if (planes.size() == 3) color::to_display(std::array<PlaneView, 3>{planes[0], planes[1], planes[2]});
+  for (int y = 0; y < box.height; ++y)
+    for (int x = 0; x < box.width; ++x)
+      for (int c = 0; c < 3; ++c) {
+        const float value = planes[planes.size() == 3 ? static_cast<size_t>(c) : 0](x, y);
+        static_cast<unsigned char*>(canvas.pixeladdr(box.x + x, box.y + y))[c] =
+            static_cast<unsigned char>(value * 255.0F + 0.5F);
+      }
+}
+
+OIIO::ImageBuf drawn(Sheet& sheet, const Lettering& lettering) {
+  const SheetLayout layout = layout_of(sheet, lettering);
+  OIIO::ImageBuf canvas(OIIO::ImageSpec(layout.sheet.width, layout.sheet.height, 3, OIIO::TypeDesc::UINT8));
+  OIIO::ImageBufAlgo::fill(canvas, {kBackground, kBackground, kBackground});
+  if (lettering.font) draw_text(canvas, layout.title, sheet.title, sheet.style.title_size_px, *lettering.font);
+  for (size_t row = 0; row < sheet.rows.size(); ++row)
+    for (size_t column = 0; column < sheet.rows[row].size(); ++column) {
+      Cell& cell = sheet.rows[row][column];
+      const PlacedCell& place = layout.rows[row][column];
+      draw_picture(canvas, place.picture, cell.planes);
+      if (lettering.font) draw_text(canvas, place.label, cell.label, sheet.style.label_size_px, *lettering.font);
+      cell.planes.clear();
+    }
+  return canvas;
+}
+
+std::vector<unsigned char> png_of(const OIIO::ImageBuf& canvas) {
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  const auto output = OIIO::ImageOutput::create("png");
+  if (!output || !output->supports("ioproxy")) fail("write PNG", OIIO::geterror());
+  OIIO::ImageSpec spec = canvas.spec();
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  output->set_ioproxy(&memory);
+  const bool written = output->open("sheet.png", spec) && output->write_image(canvas.spec().format, canvas.localpixels());
+  if (!written || !output->close()) fail("write PNG", output->geterror());
+  return bytes;
+}
+
+std::string font_note(const Sheet& sheet) {
+  const std::string font = sheet.style.font.empty() ? "DejaVu Sans" : sheet.style.font;
+  return cat("the sheet has no labels: the font ", font, " is missing; install fonts-dejavu-core");
+}
+
+void encode_sheet(Sheet& sheet, int threads, EncodedSheet& out) noexcept {
+  guarded(out.error, [&] {
+    OIIO::attribute("threads", threads);
+    const Lettering lettering = lettering_of(sheet);
+    out.png = png_of(drawn(sheet, lettering));
+    bool text = !sheet.title.empty();
+    for (const auto& row : sheet.rows)
+      for (const Cell& cell : row) text = text || !cell.label.empty();
+    if (text && !lettering.font) out.note = font_note(sheet);
+  });
+}
+
+}  // namespace
+
+}  // namespace aftershade::preview
+
+extern "C" __attribute__((visibility("default"))) const aftershade::preview::ModuleTable aftershade_preview_module = {
+    AFTERSHADE_VERSION, aftershade::preview::resize, aftershade::preview::encode_sheet};
