@@ -12,7 +12,8 @@ const params::Table& BilateralBlurParams::table() {
   static const params::Table records =
       params::TableBuilder<P>()
           .add("radius_px", &P::radius_px, {0, 64},
-               "Reach of the blur to each side, in texels of the AO's own grid at the reference height; 0 switches it off.")
+               "Reach of the blur to each side, in texels of the AO's own grid at the reference height; 0 switches it "
+               "off.")
           .add("reference_height_px", &P::reference_height_px, {1, 65536},
                "Image height at which radius_px is meant; at other heights the radius scales with the height.")
           .add("edge_distance_m", &P::edge_distance_m, {0, 1000},
@@ -23,7 +24,8 @@ const params::Table& BilateralBlurParams::table() {
   return records;
 }
 
-Plane bilateral_blur(const BilateralBlurParams& params, ConstPlaneView value, const SampleGrid& grid, const Surface& surface) {
+Plane bilateral_blur(const BilateralBlurParams& params, ConstPlaneView value, const SampleGrid& grid,
+                     const Surface& surface) {
   const float radius = scaled_px(params.radius_px, params.reference_height_px, surface.display_height);
   if (!(radius > 0)) return copy_of(value);
   const int reach = static_cast<int>(std::ceil(radius));
@@ -32,8 +34,8 @@ Plane bilateral_blur(const BilateralBlurParams& params, ConstPlaneView value, co
   const auto pass = [&](ConstPlaneView in, int dx, int dy) {
     Plane out(in.width, in.height);
     for_rows(in.height, [&](int y) {
-      bilateral_blur_row({GridSamples(grid), NormalSamples(surface), Lens(surface.projection), tolerance, Samples(in), dx, dy,
-                          reach, radius - static_cast<float>(reach - 1), 1 / (2 * sigma * sigma), out.row(y)},
+      bilateral_blur_row({GridSamples(grid), NormalSamples(surface), Lens(surface.projection), tolerance, Samples(in),
+                          dx, dy, reach, radius - static_cast<float>(reach - 1), 1 / (2 * sigma * sigma), out.row(y)},
                          y);
     });
     return out;

@@ -26,7 +26,7 @@ inline void bilateral_blur_row(const BilateralBlurRow& row, int y) {
     const Point normal = row.normals(to_int(row.grid.x_of(x, iy)), to_int(row.grid.y_of(x, iy)));
     const Float inv_tolerance = 1.0F / row.tolerance.at(centre.z);
     const Float own = row.value(x, iy);
-    const Float base = lanes::select(is_finite(own), own, 1.0F);
+    const Float base = select(is_finite(own), own, 1.0F);
     Float sum = 0.0F, weights = 0.0F;
     for (int t = -row.reach; t <= row.reach; ++t) {
       const Int tx = x + Int(t * row.dx), ty = iy + Int(t * row.dy);
@@ -36,12 +36,13 @@ inline void bilateral_blur_row(const BilateralBlurRow& row, int y) {
       const Mask valid = here & row.value.contains(tx, ty) & is_surface(point.z) & is_finite(tap);
       const Float d = plane_distance(point - centre, normal) * inv_tolerance;
       const float share = t == row.reach || t == -row.reach ? row.outer_share : 1.0F;
-      // exp2(-r^2 falloff - d^2): seed 000, CrossBilateralWeight; distance to the plane instead of depth, algorithms 10.
+      // exp2(-r^2 falloff - d^2): seed 000, CrossBilateralWeight; distance to the plane instead of depth,
+      // algorithms 10.
       const Float w = exp2(-(static_cast<float>(t * t) * row.falloff + d * d)) * share;
-      sum += lanes::select(valid, w * (tap - base), 0.0F);
-      weights += lanes::select(valid, w, 0.0F);
+      sum += select(valid, w * (tap - base), 0.0F);
+      weights += select(valid, w, 0.0F);
     }
-    store(row.out + x0, base + lanes::select(weights > 0.0F, sum / weights, 0.0F));
+    store(row.out + x0, base + select(weights > 0.0F, sum / weights, 0.0F));
   }
 }
 

@@ -17,13 +17,14 @@ const params::Table& BilateralUpsampleParams::table() {
   return records;
 }
 
-Plane bilateral_upsample(const BilateralUpsampleParams& params, ConstPlaneView value, const SampleGrid& grid, const Surface& surface) {
+Plane bilateral_upsample(const BilateralUpsampleParams& params, ConstPlaneView value, const SampleGrid& grid,
+                         const Surface& surface) {
   if (grid.step == 1) return copy_of(value);
   const EdgeTolerance tolerance(params.edge_distance_m, params.edge_footprints, grid.step, surface.projection);
   Plane out(surface.depth.width, surface.depth.height, 1.0F);
   for_rows(out.height(), [&](int y) {
-    bilateral_upsample_row({GridSamples(grid), NormalSamples(surface), Lens(surface.projection), tolerance, Samples(surface.depth),
-                            Samples(value), grid.origin_x, grid.origin_y, out.row(y)},
+    bilateral_upsample_row({GridSamples(grid), NormalSamples(surface), Lens(surface.projection), tolerance,
+                            Samples(surface.depth), Samples(value), grid.origin_x, grid.origin_y, out.row(y)},
                            y);
   });
   return out;

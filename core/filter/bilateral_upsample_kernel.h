@@ -13,8 +13,9 @@ struct BilateralUpsampleRow {
   float* out;
 };
 
-/// A tent of half-width 3 px: picked pixels are at most 3 px apart, and it is 0 beyond the 3x3 blocks around the pixel's.
-inline Float tent(Float distance_px) { return lanes::max(0.0F, 1.0F - abs(distance_px) / 3.0F); }
+/// A tent of half-width 3 px: picked pixels are at most 3 px apart, and it is 0 beyond the 3x3 blocks around the
+/// pixel's.
+inline Float tent(Float distance_px) { return max(0.0F, 1.0F - abs(distance_px) / 3.0F); }
 
 /// Running sums over the texels; differences from `base`, so that a constant stays the same to the bit.
 struct UpsampleSum {
@@ -23,15 +24,15 @@ struct UpsampleSum {
   Float nearest = HUGE_VALF, nearest_difference = 0.0F;
 
   void add(Mask valid, Float w, Float depth_gap, Float value) {
-    const Float difference = lanes::select(valid, value - base, 0.0F);
-    sum += lanes::select(valid, w * difference, 0.0F);
-    weights += lanes::select(valid, w, 0.0F);
+    const Float difference = select(valid, value - base, 0.0F);
+    sum += select(valid, w * difference, 0.0F);
+    weights += select(valid, w, 0.0F);
     const Mask nearer = valid & (depth_gap < nearest);
-    nearest = lanes::select(nearer, depth_gap, nearest);
-    nearest_difference = lanes::select(nearer, difference, nearest_difference);
+    nearest = select(nearer, depth_gap, nearest);
+    nearest_difference = select(nearer, difference, nearest_difference);
   }
   /// algorithms 11: "if sum of weights < 1e-3 use nearest-depth sample".
-  Float result() const { return base + lanes::select(weights < 1e-3F, nearest_difference, sum / weights); }
+  Float result() const { return base + select(weights < 1e-3F, nearest_difference, sum / weights); }
 };
 
 inline void bilateral_upsample_row(const BilateralUpsampleRow& row, int y) {
@@ -45,7 +46,7 @@ inline void bilateral_upsample_row(const BilateralUpsampleRow& row, int y) {
     const Point normal = row.normals(x, iy);
     const Float inv_tolerance = 1.0F / row.tolerance.at(z);
     const Float own = row.value(block_x, block_y);
-    UpsampleSum total{lanes::select(is_finite(own), own, 1.0F)};
+    UpsampleSum total{select(is_finite(own), own, 1.0F)};
     for (int j = -1; j <= 1; ++j)
       for (int i = -1; i <= 1; ++i) {
         const Int tx = block_x + Int(i), ty = block_y + j;
@@ -58,7 +59,7 @@ inline void bilateral_upsample_row(const BilateralUpsampleRow& row, int y) {
         const Float f = tent(row.grid.x_of(sx, sy) - to_float(x)) * tent(row.grid.y_of(sx, sy) - to_float(iy));
         total.add(valid, f * exp2(-(d * d)), abs(point.z - z), value);
       }
-    store(row.out + x0, lanes::select(here, total.result(), 1.0F));
+    store(row.out + x0, select(here, total.result(), 1.0F));
   }
 }
 

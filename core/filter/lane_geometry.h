@@ -18,7 +18,7 @@ struct Point {
 inline Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 inline Float dot(Point a, Point b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Point select(Mask m, Point yes, Point no) {
-  return {lanes::select(m, yes.x, no.x), lanes::select(m, yes.y, no.y), lanes::select(m, yes.z, no.z)};
+  return {select(m, yes.x, no.x), select(m, yes.y, no.y), select(m, yes.z, no.z)};
 }
 
 /// +inf, NaN and depths <= 0 are background.
@@ -46,8 +46,8 @@ struct Samples {
   int width, height, stride;
   Float operator()(Int x, Int y) const { return gather(data, y * Int(stride) + x); }
   Mask contains(Int x, Int y) const { return (x >= Int(0)) & (x < Int(width)) & (y >= Int(0)) & (y < Int(height)); }
-  Int clamp_x(Int x) const { return lanes::clamp(x, 0, width - 1); }
-  Int clamp_y(Int y) const { return lanes::clamp(y, 0, height - 1); }
+  Int clamp_x(Int x) const { return clamp(x, 0, width - 1); }
+  Int clamp_y(Int y) const { return clamp(y, 0, height - 1); }
 };
 
 /// The normal at pixels inside the image; (0,0,0) where it is not finite.
@@ -80,12 +80,13 @@ struct EdgeTolerance {
     per_depth = p.orthographic ? 0.0F : footprint;
   }
   float distance_m, per_depth;
-  Float at(Float z) const { return lanes::max(distance_m, z * per_depth); }
+  Float at(Float z) const { return max(distance_m, z * per_depth); }
 };
 
-/// Distance of `v` (from a pixel's point to another) from the pixel's tangent plane; its depth alone where there is no normal.
+/// Distance of `v` (from a pixel's point to another) from the pixel's tangent plane; its depth alone where there is no
+/// normal.
 inline Float plane_distance(Point v, Point normal) {
-  return abs(lanes::select(dot(normal, normal) > 0.0F, dot(v, normal), v.z));
+  return abs(select(dot(normal, normal) > 0.0F, dot(v, normal), v.z));
 }
 
 }  // namespace aftershade::filter

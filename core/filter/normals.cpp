@@ -9,7 +9,9 @@ Normals normals_from_depth(ConstPlaneView depth, const Projection& projection) {
   Normals out;
   for (Plane& plane : out) plane = Plane(depth.width, depth.height);
   for_rows(depth.height, [&](int y) {
-    normals_row({Samples(depth), Lens(projection), projection.fx, projection.fy, out[0].row(y), out[1].row(y), out[2].row(y)}, y);
+    normals_row(
+        {Samples(depth), Lens(projection), projection.fx, projection.fy, out[0].row(y), out[1].row(y), out[2].row(y)},
+        y);
   });
   return out;
 }

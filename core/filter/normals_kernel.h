@@ -23,12 +23,12 @@ inline Float planar(const NormalsRow& row, Float z) { return row.lens.orthograph
 inline Side side(const NormalsRow& row, Int x, Int y, Float z, int dx, int dy) {
   const auto depth_at = [&](int steps) {
     const Int tx = x + Int(dx * steps), ty = y + Int(dy * steps);
-    return lanes::select(row.depth.contains(tx, ty), row.depth(row.depth.clamp_x(tx), row.depth.clamp_y(ty)), -1.0F);
+    return select(row.depth.contains(tx, ty), row.depth(row.depth.clamp_x(tx), row.depth.clamp_y(ty)), -1.0F);
   };
   const Float near = depth_at(1), far = depth_at(2);
   const Float a = planar(row, near), b = planar(row, far);
-  const Float predicted = lanes::select(is_surface(far), 2.0F * a - b, a);
-  return {near, lanes::select(is_surface(near), abs(predicted - planar(row, z)), HUGE_VALF)};
+  const Float predicted = select(is_surface(far), 2.0F * a - b, a);
+  return {near, select(is_surface(near), abs(predicted - planar(row, z)), HUGE_VALF)};
 }
 
 /// Depth slope k and depth ratio q toward the better side, for a step of +1 pixel: k = f (z(+1) - z) / z, q = z(+1) / z
@@ -38,13 +38,12 @@ struct Slope {
 };
 inline Slope slope(const NormalsRow& row, Float z, Side minus, Side plus, float f) {
   const Mask take_minus = minus.miss <= plus.miss;
-  const Float best = lanes::select(take_minus, minus.miss, plus.miss);
-  const Float other = lanes::select(take_minus, minus.z, plus.z);
+  const Float best = select(take_minus, minus.miss, plus.miss);
+  const Float other = select(take_minus, minus.z, plus.z);
   const Float scale = row.lens.orthographic ? Float(1.0F) : z;
-  const Float step = lanes::select(take_minus, z - other, other - z) / scale * f;
+  const Float step = select(take_minus, z - other, other - z) / scale * f;
   const Mask known = is_finite(best);
-  return {lanes::select(known, step, 0.0F),
-          row.lens.orthographic ? Float(1.0F) : lanes::select(known, other / z, 1.0F)};
+  return {select(known, step, 0.0F), row.lens.orthographic ? Float(1.0F) : select(known, other / z, 1.0F)};
 }
 
 /// n = dP/dx x dP/dy, the tangents in units of a pixel's footprint at z, (u, v, 1) the ray of the pixel:
@@ -63,9 +62,9 @@ inline void normals_row(const NormalsRow& row, int y) {
     const Point n{tx.y * ty.z - tx.z * ty.y, tx.z * ty.x - tx.x * ty.z, tx.x * ty.y - tx.y * ty.x};
     const Float length = sqrt(dot(n, n));
     const Mask valid = is_surface(z) & is_finite(length) & (length > 0.0F);
-    store(row.nx + x0, lanes::select(valid, n.x / length, 0.0F));
-    store(row.ny + x0, lanes::select(valid, n.y / length, 0.0F));
-    store(row.nz + x0, lanes::select(valid, n.z / length, 0.0F));
+    store(row.nx + x0, select(valid, n.x / length, 0.0F));
+    store(row.ny + x0, select(valid, n.y / length, 0.0F));
+    store(row.nz + x0, select(valid, n.z / length, 0.0F));
   }
 }
 

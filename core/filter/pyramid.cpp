@@ -11,7 +11,8 @@ DepthPyramid::DepthPyramid(ConstPlaneView depth, int levels, int origin_x, int o
   if (depth.empty()) return;
   for (int m = 1; m < levels; ++m) {
     const ConstPlaneView finer = level(m - 1);
-    const int fine_x = origin_x >> (m - 1), fine_y = origin_y >> (m - 1), coarse_x = origin_x >> m, coarse_y = origin_y >> m;
+    const int fine_x = origin_x >> (m - 1), fine_y = origin_y >> (m - 1), coarse_x = origin_x >> m,
+              coarse_y = origin_y >> m;
     Plane mip(((fine_x + finer.width - 1) >> 1) - coarse_x + 1, ((fine_y + finer.height - 1) >> 1) - coarse_y + 1);
     for_rows(mip.height(), [&](int y) {
       for (int x = 0; x < mip.width(); ++x) {

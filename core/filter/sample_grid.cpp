@@ -45,8 +45,13 @@ SampleGrid full_grid(const Surface& surface) {
 }
 
 SampleGrid half_grid(const Surface& surface) {
-  const int width = blocks(surface.origin_x, surface.depth.width), height = blocks(surface.origin_y, surface.depth.height);
-  SampleGrid grid{2, -(surface.origin_x & 1), -(surface.origin_y & 1), Plane(width, height, kBackground), Plane(width, height),
+  const int width = blocks(surface.origin_x, surface.depth.width),
+            height = blocks(surface.origin_y, surface.depth.height);
+  SampleGrid grid{2,
+                  -(surface.origin_x & 1),
+                  -(surface.origin_y & 1),
+                  Plane(width, height, kBackground),
+                  Plane(width, height),
                   Plane(width, height)};
   const int block_x = surface.origin_x >> 1, block_y = surface.origin_y >> 1;
   for_rows(height, [&](int y) {

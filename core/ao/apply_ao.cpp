@@ -1,0 +1,66 @@
+#include "core/ao/apply_ao.h"
+
+#include <string>
+
+#include "core/ao/apply_ao_kernel.h"
+#include "core/base/error.h"
+#include "core/parallel/rows.h"
+
+namespace aftershade::ao {
+
+const params::Table& ApplyAoParams::table() {
+  using P = ApplyAoParams;
+  static const params::Table records =
+      params::TableBuilder<P>()
+          .add("target", &P::target, {"automatic", "everything", "ambient", "none"},
+               "What the AO darkens: the ambient light in the picture where the file has it and else everything, "
+               "everything, "
+               "the ambient light only, or nothing.")
+          .add("strength", &P::strength, {0, 4}, "How much of the AO is applied; 1 is all of it.")
+          .add("minimum", &P::minimum, {0, 1}, "The darkest factor that the AO may come to.")
+          .build();
+  return records;
+}
+
+ApplyTarget resolved_target(const ApplyAoParams& params, const Frame& frame) {
+  if (params.target != ApplyTarget::automatic) return params.target;
+  return frame.has(Role::ambient) ? ApplyTarget::ambient : ApplyTarget::everything;
+}
+
+namespace {
+
+/// The plane of the ambient role that belongs to a layer's channel: by its last letter where that is R, G or B, since
+/// files list channels alphabetically, else by its place.
+size_t ambient_component(const Layer& layer, size_t plane) {
+  constexpr std::string_view kComponents = "RGB";
+  const std::string_view name =
+      plane < layer.channels.size() ? std::string_view(layer.channels[plane]) : std::string_view();
+  const size_t component = name.empty() ? std::string_view::npos : kComponents.find(name.back());
+  return component != std::string_view::npos ? component : plane % kComponents.size();
+}
+
+}  // namespace
+
+void apply_ao(const ApplyAoParams& params, ConstPlaneView ao, Frame& frame) {
+  const ApplyTarget target = resolved_target(params, frame);
+  if (target == ApplyTarget::none) return;
+  if (target == ApplyTarget::ambient && !frame.has(Role::ambient))
+    throw Error(ErrorCode::data,
+                "frame " + std::to_string(frame.number) + " has no ambient channels to apply the AO to",
+                "name them with --channel ambient=..., or use target \"everything\"");
+  for (Layer& layer : frame.layers) {
+    if (!layer.receives_ao) continue;
+    for (size_t i = 0; i < layer.planes.size(); ++i) {
+      if (static_cast<int>(i) == layer.alpha) continue;
+      Plane& colour = layer.planes[i];
+      const Plane* ambient =
+          target == ApplyTarget::ambient ? &frame.planes(Role::ambient).at(ambient_component(layer, i)) : nullptr;
+      for_rows(colour.height(), [&](int y) {
+        apply_ao_row({ao.row(y), ambient ? ambient->row(y) : nullptr, params.strength, params.minimum, colour.width(),
+                      colour.row(y)});
+      });
+    }
+  }
+}
+
+}  // namespace aftershade::ao

@@ -1,0 +1,34 @@
+#pragma once
+#include "core/simd/lanes.h"
+
+namespace aftershade::ao {
+
+using namespace lanes;
+
+struct ApplyAoRow {
+  const float* ao;
+  const float* ambient;  ///< null: everything is darkened
+  float strength, minimum;
+  int width;
+  float* colour;  ///< in and out
+};
+
+/// a = max(minimum, 1 - strength (1 - AO)); colour a, or colour - (1 - a) ambient. AO and ambient that are not finite
+/// count as open and as none; a colour that is not finite, or already negative, is not darkened by subtraction or made
+/// NaN.
+inline void apply_ao_row(const ApplyAoRow& row) {
+  for (int x = 0; x < row.width; x += kLanes) {
+    const Float ao = load(row.ao + x), colour = load(row.colour + x);
+    const Float open = select(is_finite(ao), sat(ao), 1.0F);
+    const Float a = max(1.0F - row.strength * (1.0F - open), row.minimum);
+    Float darker = colour * a;
+    if (row.ambient) {
+      const Float ambient = load(row.ambient + x);
+      const Float light = select(is_finite(ambient), max(ambient, 0.0F), 0.0F);
+      darker = select(colour > 0.0F, max(colour - (1.0F - a) * light, 0.0F), colour);
+    }
+    store(row.colour + x, select(is_finite(colour), darker, colour));
+  }
+}
+
+}  // namespace aftershade::ao

@@ -1,0 +1,84 @@
+#include "core/ao/scalable_ao.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/ao/scalable_ao_kernel.h"
+#include "core/ao/tap_pattern.h"
+#include "core/math/sampling.h"
+#include "core/parallel/rows.h"
+
+namespace aftershade::ao {
+
+const params::Table& ScalableAoParams::table() {
+  using P = ScalableAoParams;
+  static const params::Table records =
+      params::TableBuilder<P>()
+          .add("resolution", &P::resolution, {"full", "half"},
+               "Evaluate the AO at every pixel, or at one pixel of every 2x2 block.")
+          .add("pattern", &P::pattern, {"mirrored", "spiral"},
+               "Taps in opposite pairs (current-gen), or along a spiral over the whole circle (DX11).")
+          .add("taps", &P::taps, {1, 1024}, "Taps per pixel; the mirrored pattern rounds an odd count up.")
+          .add("radius_m", &P::radius_m, {1e-6, 1e6}, "Distance at which a surface no longer occludes.")
+          .add(
+              "max_radius_px", &P::max_radius_px, {0, 65536},
+              "Largest projected radius at the reference height, beyond which the radius is shortened; 0 for no limit.")
+          .add("reference_height_px", &P::reference_height_px, {1, 65536},
+               "Image height at which max_radius_px is meant; at other heights it scales with the height.")
+          .add("bias", &P::bias, {0, 1},
+               "Sine of the angle above the surface below which nothing occludes, against self-occlusion.")
+          .add("scale", &P::scale, {0, 100}, "Strength of the occlusion before it is squared.")
+          .add("depth_mips", &P::depth_mips, "Let taps far from their pixel read reduced depth, which is faster.")
+          .add("normals", &P::normals, {"automatic", "file", "depth"},
+               "Where normals come from: the file if it has them and else the depth, the file only, or the depth only.")
+          .add("per_frame_noise", &P::per_frame_noise,
+               "Rotate the taps anew every frame, for a temporal filter to average.")
+          .build();
+  return records;
+}
+
+namespace {
+
+/// A mirrored pattern repeats after half a turn.
+std::array<float, 16> rotations(TapPattern pattern) {
+  std::array<float, 16> turns = kBayer4x4;
+  if (pattern == TapPattern::mirrored)
+    for (float& t : turns) t *= 0.5F;
+  return turns;
+}
+
+/// Successive multiples of the golden ratio fill the circle evenly, whatever the number of frames.
+float noise_turns(const ScalableAoParams& params, int frame_number) {
+  if (!params.per_frame_noise) return 0;
+  const double turns = frame_number * 0.6180339887498949;
+  return static_cast<float>(turns - std::floor(turns));
+}
+
+DepthLevels depth_levels(const filter::DepthPyramid& pyramid, bool mips) {
+  const int count = mips ? std::min(pyramid.levels(), kMaxLevels) : 1;
+  const auto level = [&](int m) { return Samples(pyramid.level(std::min(m, count - 1))); };
+  return {{level(0), level(1), level(2), level(3), level(4), level(5)}, count, pyramid.origin_x(), pyramid.origin_y()};
+}
+
+}  // namespace
+
+Plane scalable_ao(const ScalableAoParams& params, const filter::Surface& surface, const filter::DepthPyramid& pyramid,
+                  const filter::SampleGrid& grid, int frame_number) {
+  const auto taps = params.pattern == TapPattern::mirrored ? mirrored_taps(params.taps) : spiral_taps(params.taps);
+  const float clamp_px = filter::scaled_px(params.max_radius_px, params.reference_height_px, surface.display_height);
+  Plane out(grid.width(), grid.height(), 1.0F);
+  for_rows(out.height(), [&](int y) {
+    scalable_ao_row(
+        {filter::GridSamples(grid), filter::NormalSamples(surface), filter::Lens(surface.projection),
+         depth_levels(pyramid, params.depth_mips), taps, params.radius_m, params.radius_m * surface.projection.fx,
+         params.radius_m * surface.projection.fy,
+         params.max_radius_px > 0 ? clamp_px : std::numeric_limits<float>::infinity(), params.bias, params.scale,
+         noise_turns(params, frame_number), rotations(params.pattern), (surface.origin_x + grid.origin_x) / grid.step,
+         (surface.origin_y + grid.origin_y) / grid.step, out.row(y)},
+        y);
+  });
+  return out;
+}
+
+}  // namespace aftershade::ao

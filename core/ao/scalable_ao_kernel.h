@@ -1,0 +1,125 @@
+#pragma once
+#include <array>
+#include <span>
+
+#include "core/ao/tap_pattern.h"
+#include "core/filter/lane_geometry.h"
+
+namespace aftershade::ao {
+
+using namespace lanes;
+using filter::Point;
+using filter::Samples;
+
+inline constexpr int kMaxLevels = 6;       ///< SAO's MAX_MIP_LEVEL is 5 (algorithms 4.2)
+inline constexpr int kLogMaxOffset = 3;    ///< SAO's LOG_MAX_OFFSET: taps nearer than 16 px read level 0
+inline constexpr float kMinTapPx = 0.75F;  ///< SAO: a tap never falls on the pixel itself
+
+/// The depth pyramid, read so that each value is put where it was taken.
+struct DepthLevels {
+  std::array<Samples, kMaxLevels> levels;
+  int count;
+  int origin_x, origin_y;  ///< absolute coordinates of level 0's index (0, 0)
+};
+
+struct ScalableAoRow {
+  filter::GridSamples grid;
+  filter::NormalSamples normals;
+  filter::Lens lens;
+  DepthLevels depth;
+  std::span<const Tap> taps;
+  float radius_m;
+  float radius_px_x, radius_px_y;  ///< of radius_m: at a depth of 1 m (perspective), everywhere (orthographic)
+  float max_radius_px;             ///< of the vertical projected radius; +inf: no clamp
+  float bias, scale;
+  float noise_turns;                     ///< added to every pixel's rotation
+  std::array<float, 16> rotation_turns;  ///< 4x4, by absolute texel
+  int texel_x, texel_y;                  ///< absolute texel coordinates of the grid's (0, 0)
+  float* out;
+};
+
+/// The point that the tap at pixel (x, y) sees through pyramid level `m`: the level's texel over the pixel holds the
+/// depth of one pixel below it, found by walking down z_{m+1}(x,y) = z_m(2x + (y&1), 2y + (x&1)); the point is
+/// unprojected from there, so that a plane stays a plane. (SAO unprojects from the tap's own pixel and leans on the
+/// bias.)
+inline Point tap_point(const DepthLevels& depth, const filter::Lens& lens, Int x, Int y, Int m) {
+  Float z = depth.levels[0](x, y);
+  Int px = x, py = y;
+  for (int level = 1; level < depth.count; ++level) {
+    const Mask at_level = m == Int(level);
+    if (!any(at_level)) continue;
+    const Samples& mip = depth.levels[static_cast<size_t>(level)];
+    Int tx = (x + Int(depth.origin_x)) >> level, ty = (y + Int(depth.origin_y)) >> level;
+    z = select(at_level, mip(tx - Int(depth.origin_x >> level), ty - Int(depth.origin_y >> level)), z);
+    for (int finer = level - 1; finer >= 0; --finer) {
+      const Samples& below = depth.levels[static_cast<size_t>(finer)];
+      const int first_x = depth.origin_x >> finer, first_y = depth.origin_y >> finer;
+      const Int next_x = (tx << 1) + (ty & Int(1)), next_y = (ty << 1) + (tx & Int(1));
+      tx = clamp(next_x, first_x, first_x + below.width - 1);
+      ty = clamp(next_y, first_y, first_y + below.height - 1);
+    }
+    px = select(at_level, tx - Int(depth.origin_x), px);
+    py = select(at_level, ty - Int(depth.origin_y), py);
+  }
+  return filter::unproject(lens, to_float(px), to_float(py), z);
+}
+
+/// "Falloff Function" slide: max(1 - |v| / r, 0) * max((v / |v|) . n - bias, 0); v = 0 does not occlude.
+inline Float tap_occlusion(Point v, Point normal, Float radius, float bias) {
+  const Float length = sqrt(dot(v, v));
+  const Float distance_falloff = max(1.0F - length / radius, 0.0F);
+  const Float angular_falloff = max(dot(v, normal) / length - bias, 0.0F);
+  return select(length > 0.0F, distance_falloff * angular_falloff, 0.0F);
+}
+
+/// Projected radius of a pixel at depth z. The clamp shortens the radius itself, in metres too, so that the falloff
+/// still reaches 0 at the outermost tap (ours: the slide says no more than "clamp radius to ~20 pixels").
+struct ProjectedRadius {
+  Float x_px, y_px, m;
+};
+inline ProjectedRadius projected_radius(const ScalableAoRow& row, Float z) {
+  constexpr float kFarOutside = 1e6F;  // keeps tap positions inside an Int
+  const Float depth = row.lens.orthographic ? Float(1.0F) : z;
+  const Float x_px = row.radius_px_x / depth, y_px = row.radius_px_y / depth;
+  const Mask clamped = y_px > row.max_radius_px;
+  const Float share = select(clamped, row.max_radius_px / y_px, 1.0F);
+  return {min(x_px * share, kFarOutside), min(y_px * share, kFarOutside), row.radius_m * share};
+}
+
+inline void scalable_ao_row(const ScalableAoRow& row, int y) {
+  const Samples& image = row.depth.levels[0];
+  for (int x0 = 0; x0 < row.grid.depth.width; x0 += kLanes) {
+    const Int x = row.grid.depth.clamp_x(iota(x0)), iy = y;
+    const Float z = row.grid.depth(x, iy);
+    const Mask here = filter::is_surface(z);
+    const Int px = to_int(row.grid.x_of(x, iy)), py = to_int(row.grid.y_of(x, iy));
+    const Point centre = filter::unproject(row.lens, to_float(px), to_float(py), z);
+    const Point normal = row.normals(px, py);
+    const ProjectedRadius radius = projected_radius(row, select(here, z, 1.0F));
+    const Float longest = max(radius.x_px, radius.y_px);
+    const Int cell = (((iy + Int(row.texel_y)) & Int(3)) << 2) + ((x + Int(row.texel_x)) & Int(3));
+    const SinCos rotation = sincos_turns(gather(row.rotation_turns.data(), cell) + row.noise_turns);
+    Float sum = 0.0F, inside = 0.0F;
+    for (const Tap& tap : row.taps) {
+      const Float dir_x = tap.x * rotation.cos - tap.y * rotation.sin,
+                  dir_y = tap.x * rotation.sin + tap.y * rotation.cos;
+      // r_i = max(0.75 px, alpha_i r'), mip_i = clamp(floor(log2(r_i)) - 3, 0, 5): algorithms 4.2.
+      const Int tx = px + to_int(round(dir_x * max(tap.radius * radius.x_px, kMinTapPx)));
+      const Int ty = py + to_int(round(dir_y * max(tap.radius * radius.y_px, kMinTapPx)));
+      const Int level =
+          clamp(floor_log2(max(tap.radius * longest, kMinTapPx)) - Int(kLogMaxOffset), 0, row.depth.count - 1);
+      const Mask in_frame = image.contains(tx, ty);
+      const Point point = tap_point(row.depth, row.lens, image.clamp_x(tx), image.clamp_y(ty), level);
+      const Float occlusion = tap_occlusion(point - centre, normal, radius.m, row.bias);
+      sum += select(in_frame & filter::is_surface(point.z), occlusion, 0.0F);
+      inside += select(in_frame, Float(1.0F), 0.0F);
+    }
+    // "Total Occlusion" slide: AO_T = (2 scale / S sum AO_s)^2. S counts the taps inside the image (ours): counting the
+    // others as open would brighten the borders. Taps on background count: nothing is there.
+    const Float mean = sum / max(inside, 1.0F);
+    const Float total = 2.0F * row.scale * mean;
+    store(row.out + x0, select(here, 1.0F - sat(total * total), 1.0F));
+  }
+}
+
+}  // namespace aftershade::ao
