@@ -33,7 +33,8 @@ void check(const Cell& cell) {
   const auto differs = [&](const Plane& plane) {
     return plane.width() != planes[0].width() || plane.height() != planes[0].height();
   };
-  if ((planes.size() != 0 && planes.size() != 1 && planes.size() != 3) || std::any_of(planes.begin(), planes.end(), differs))
+  if ((planes.size() != 0 && planes.size() != 1 && planes.size() != 3) ||
+      std::any_of(planes.begin(), planes.end(), differs))
     throw Error(ErrorCode::usage, cat("the picture \"", cell.label, "\" has neither one nor three planes of one size"));
   if (!(cell.pixel_aspect > 0 && std::isfinite(cell.pixel_aspect)))
     throw Error(ErrorCode::usage, cat("the picture \"", cell.label, "\" has a pixel aspect of ", cell.pixel_aspect));
@@ -63,17 +64,20 @@ std::vector<fs::path> module_candidates() {
 
 const ModuleTable& open_module(std::span<const fs::path> candidates) {
   std::error_code ignored;
-  const auto found = std::find_if(candidates.begin(), candidates.end(), [&](const auto& p) { return fs::exists(p, ignored); });
+  const auto found =
+      std::find_if(candidates.begin(), candidates.end(), [&](const auto& p) { return fs::exists(p, ignored); });
   if (found == candidates.end()) {
     std::vector<std::string> tried;
     for (const auto& path : candidates) tried.push_back(path.lexically_normal().string());
-    throw Error(ErrorCode::internal, cat("the preview module is missing: there is no ", join(tried, " and no ")), kHint);
+    throw Error(ErrorCode::internal, cat("the preview module is missing: there is no ", join(tried, " and no ")),
+                kHint);
   }
   void* const handle = dlopen(found->c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) throw Error(ErrorCode::internal, cat("cannot load the preview module: ", dlerror()), kHint);
   const auto* table = static_cast<const ModuleTable*>(dlsym(handle, kModuleSymbol));
   if (table == nullptr || std::strcmp(table->version, AFTERSHADE_VERSION) != 0)
-    throw Error(ErrorCode::internal, cat(found->string(), " is not the preview module of aftershade ", AFTERSHADE_VERSION), kHint);
+    throw Error(ErrorCode::internal,
+                cat(found->string(), " is not the preview module of aftershade ", AFTERSHADE_VERSION), kHint);
   return *table;
 }
 

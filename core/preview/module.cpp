@@ -5,6 +5,7 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <array>
 #include <new>
 
@@ -57,17 +58,28 @@ void resize(PlaneView source, PlaneView target, int threads, std::optional<Error
 struct Lettering {
   std::optional<std::string> font;  ///< nullopt: no text
   int title_height_px = 0, label_height_px = 0;
+  std::string note;
 };
 
+bool has_labels(const Sheet& sheet) {
+  const auto labelled = [](const Cell& cell) { return !cell.label.empty(); };
+  return std::any_of(sheet.rows.begin(), sheet.rows.end(),
+                     [&](const auto& row) { return std::any_of(row.begin(), row.end(), labelled); });
+}
+
 Lettering lettering_of(const Sheet& sheet) {
-  bool labels = false;
-  for (const auto& row : sheet.rows)
-    for (const Cell& cell : row) labels = labels || !cell.label.empty();
-  if (!labels && sheet.title.empty()) return {};
-  Lettering out{.font = usable_font(sheet.style.font)};
-  if (!out.font) return out;
-  if (!sheet.title.empty()) out.title_height_px = sheet.style.title_size_px * 3 / 2;
-  if (labels) out.label_height_px = sheet.style.label_size_px * 7 / 4;
+  const SheetStyle& style = sheet.style;
+  const bool labels = has_labels(sheet), title = !sheet.title.empty();
+  if (!labels && !title) return {};
+  Lettering out;
+  out.font = usable_font(style.font);
+  if (!out.font) {
+    out.note = cat("the sheet has no labels: the font ", style.font.empty() ? "DejaVu Sans" : style.font,
+                   " cannot be used (install fonts-dejavu-core)");
+    return out;
+  }
+  if (title) out.title_height_px = style.title_size_px * 3 / 2;
+  if (labels) out.label_height_px = style.label_size_px * 7 / 4;
   return out;
 }
 
@@ -75,7 +87,8 @@ CellSize size_of(const Cell& cell, const SheetStyle& style, const Lettering& let
   CellSize out;
   if (!cell.planes.empty()) out.picture = {cell.planes[0].width(), cell.planes[0].height()};
   if (lettering.font)
-    out.label_width_px = std::min(text_width(cell.label, style.label_size_px, *lettering.font), style.max_cell_width_px);
+    out.label_width_px =
+        std::min(text_width(cell.label, style.label_size_px, *lettering.font), style.max_cell_width_px);
   return out;
 }
 
@@ -87,21 +100,22 @@ SheetLayout layout_of(const Sheet& sheet, const Lettering& lettering) {
   }
   SheetLayout layout = lay_out(rows, {sheet.style.gap_px, lettering.title_height_px, lettering.label_height_px});
   if (layout.sheet.width > kMaxSide_px || layout.sheet.height > kMaxSide_px)
-    throw Error(ErrorCode::usage, cat("the sheet would have ", layout.sheet.width, " x ", layout.sheet.height, " pixels"),
+    throw Error(ErrorCode::usage,
+                cat("the sheet would have ", layout.sheet.width, " x ", layout.sheet.height, " pixels"),
                 "choose fewer frames or smaller cells");
   return layout;
 }
 
 void draw_picture(OIIO::ImageBuf& canvas, const Box& box, std::vector<Plane>& planes) {
   if (planes.empty()) return;
-  if (planes.size() == 3) color::to_display(std::array<PlaneView, 3>{planes[0], planes[1], planes[2]});
-  for (int y = 0; y < box.height; ++y)
+  const bool rgb = planes.size() == 3;
+  if (rgb) color::to_display(std::array<PlaneView, 3>{planes[0], planes[1], planes[2]});
+  for (int y = 0; y < box.height; ++y) {
+    auto* pixel = static_cast<unsigned char*>(canvas.pixeladdr(box.x, box.y + y));
     for (int x = 0; x < box.width; ++x)
-      for (int c = 0; c < 3; ++c) {
-        const float value = planes[planes.size() == 3 ? static_cast<size_t>(c) : 0](x, y);
-        static_cast<unsigned char*>(canvas.pixeladdr(box.x + x, box.y + y))[c] =
-            static_cast<unsigned char>(value * 255.0F + 0.5F);
-      }
+      for (const size_t plane : {0U, 1U, 2U})
+        *pixel++ = static_cast<unsigned char>(planes[rgb ? plane : 0](x, y) * 255.0F + 0.5F);
+  }
 }
 
 OIIO::ImageBuf drawn(Sheet& sheet, const Lettering& lettering) {
@@ -128,25 +142,18 @@ std::vector<unsigned char> png_of(const OIIO::ImageBuf& canvas) {
   OIIO::ImageSpec spec = canvas.spec();
   spec.attribute("oiio:ColorSpace", "sRGB");
   output->set_ioproxy(&memory);
-  const bool written = output->open("sheet.png", spec) && output->write_image(canvas.spec().format, canvas.localpixels());
+  const bool written =
+      output->open("sheet.png", spec) && output->write_image(canvas.spec().format, canvas.localpixels());
   if (!written || !output->close()) fail("write PNG", output->geterror());
   return bytes;
-}
-
-std::string font_note(const Sheet& sheet) {
-  const std::string font = sheet.style.font.empty() ? "DejaVu Sans" : sheet.style.font;
-  return cat("the sheet has no labels: the font ", font, " is missing; install fonts-dejavu-core");
 }
 
 void encode_sheet(Sheet& sheet, int threads, EncodedSheet& out) noexcept {
   guarded(out.error, [&] {
     OIIO::attribute("threads", threads);
     const Lettering lettering = lettering_of(sheet);
+    out.note = lettering.note;
     out.png = png_of(drawn(sheet, lettering));
-    bool text = !sheet.title.empty();
-    for (const auto& row : sheet.rows)
-      for (const Cell& cell : row) text = text || !cell.label.empty();
-    if (text && !lettering.font) out.note = font_note(sheet);
   });
 }
 

@@ -13,7 +13,8 @@ std::vector<int> column_widths(const std::vector<std::vector<CellSize>>& rows) {
   std::vector<int> widths;
   for (const auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()));
-    for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max({widths[i], row[i].picture.width, row[i].label_width_px});
+    for (size_t i = 0; i < row.size(); ++i)
+      widths[i] = std::max({widths[i], row[i].picture.width, row[i].label_width_px});
   }
   return widths;
 }

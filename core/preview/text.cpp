@@ -14,10 +14,10 @@ namespace {
 constexpr std::array kTextColor{0.86F, 0.86F, 0.86F};
 
 constexpr std::array kFontFiles{
-    "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",      // Debian, Ubuntu: fonts-dejavu-core
-    "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",    // Fedora
-    "/usr/share/fonts/TTF/DejaVuSans.ttf",                  // Arch
-    "/usr/share/fonts/dejavu/DejaVuSans.ttf",               // older Fedora
+    "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",    // Debian, Ubuntu: fonts-dejavu-core
+    "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",  // Fedora
+    "/usr/share/fonts/TTF/DejaVuSans.ttf",                // Arch
+    "/usr/share/fonts/dejavu/DejaVuSans.ttf",             // older Fedora
 };
 
 bool can_draw(const std::string& font) {
@@ -28,7 +28,8 @@ bool can_draw(const std::string& font) {
 
 /// One line: OpenImageIO would break it at a line feed.
 std::string one_line(std::string text) {
-  std::replace_if(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
   return text;
 }
 

@@ -8,8 +8,8 @@
 
 namespace aftershade::preview {
 
-/// The font file to draw with: `wanted`, or, when that is empty, DejaVu Sans where Debian, Fedora, Arch or $OPENIMAGEIO_FONTS
-/// have it. nullopt when it is missing or OpenImageIO cannot draw with it.
+/// The font file to draw with: `wanted`, or, when that is empty, DejaVu Sans where Debian, Fedora, Arch or
+/// $OPENIMAGEIO_FONTS have it. nullopt when it is missing or OpenImageIO cannot draw with it.
 std::optional<std::string> usable_font(const std::string& wanted);
 
 /// The width in pixels of one line of text; control characters count as blanks.
