@@ -1,0 +1,121 @@
+#include "app/job.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "app/log.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/io/publish.h"
+
+namespace aftershade::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where frames go: a pattern with a frame token, a folder, or a file for one frame.
+std::function<std::string(int)> output_paths(const RenderArgs& args, const io::Pattern& input, size_t frames) {
+  const auto hash = args.hash_digits == "oiio" ? io::HashDigits::oiio : io::HashDigits::one;
+  if (fs::is_directory(args.output) || args.output.ends_with('/'))
+    return [folder = fs::path(args.output), input](int frame) { return (folder / input.name(frame)).string(); };
+  if (const auto pattern = io::parse_pattern(args.output, hash))
+    return [pattern](int frame) { return pattern->path(frame); };
+  if (frames > 1)
+    throw Error(ErrorCode::usage, cat("-o ", args.output, " names one file, but ", frames, " frames are to be written"),
+                "put a frame token into it (out.####.exr), or name an existing folder");
+  return [path = args.output](int) { return path; };
+}
+
+void check_folder(const std::string& path) {
+  fs::path folder = fs::path(path).parent_path();
+  if (folder.empty()) folder = ".";
+  if (!fs::is_directory(folder))
+    throw Error(ErrorCode::cannot_create, cat("the output folder ", folder.string(), " does not exist"),
+                "create it first");
+  if (access(folder.c_str(), W_OK) != 0)
+    throw Error(ErrorCode::cannot_create, cat("the output folder ", folder.string(), " cannot be written to"),
+                "check its permissions");
+}
+
+/// Refuses to write over a frame that is read.
+void check_not_input(const Job& job) {
+  for (const int frame : job.written)
+    for (const auto& source : job.input.found.sequence.entries())
+      if (io::same_file(job.output_path(frame), source.path))
+        throw Error(ErrorCode::usage, cat("the output ", job.output_path(frame), " is the input frame ", source.frame),
+                    "write to another folder or another name");
+}
+
+bool is_complete(const std::string& path) {
+  try {
+    io::ExrReader reader(path);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+/// Applies --existing to the frames to write.
+void apply_existing(const std::string& policy, Job& job) {
+  if (policy == "overwrite") return;
+  if (policy == "error") {
+    for (const int frame : job.written)
+      if (fs::exists(job.output_path(frame)))
+        throw Error(ErrorCode::cannot_create, cat("frame ", frame, ": the output ", job.output_path(frame), " exists"),
+                    "--existing overwrite or --existing skip");
+    return;
+  }
+  const size_t before = job.written.size();
+  std::erase_if(job.written, [&](int frame) { return is_complete(job.output_path(frame)); });
+  if (job.written.size() < before)
+    log().note(cat(before - job.written.size(), " frames exist and are complete: skipped"));
+}
+
+int preroll_of(const std::string& text) {
+  if (text == "all") return pipeline::kPrerollAll;
+  const auto frames = parse_integer(text);
+  if (frames && *frames >= 0) return *frames;
+  throw Error(ErrorCode::usage, cat("--preroll ", text, " is not a number of frames"), "a number, or all");
+}
+
+bool has_channel(const io::FileInfo& info, const std::string& name) {
+  for (const io::PartInfo& part : info.parts)
+    for (const io::ChannelInfo& channel : part.channels)
+      if (channel.name == name || channel.name.ends_with("." + name)) return true;
+  return false;
+}
+
+pipeline::Outputs outputs_of(const RenderArgs& args, const io::FileInfo& info) {
+  pipeline::Outputs outputs;
+  if (args.ao || args.ao_only) outputs.ao_channel = has_channel(info, "AO") ? "aftershade.AO" : "AO";
+  outputs.layers = !args.ao_only;
+  outputs.work.diagnostics = args.diagnostics;
+  outputs.work.grow_data_window = args.data_window == "grow";
+  return outputs;
+}
+
+}  // namespace
+
+Job resolve_job(const RenderArgs& args) {
+  Job job;
+  job.input = open_input(args);
+  job.preset = resolve_preset(args);
+  job.preroll = preroll_of(args.preroll);
+  job.written = job.input.frames;
+  job.output_path = output_paths(args, job.input.found.pattern, job.written.size());
+  for (const int frame : job.written) check_folder(job.output_path(frame));
+  check_not_input(job);
+  apply_existing(args.existing, job);
+  if (!args.compression.empty()) job.write.compression = args.compression;
+  job.write.data_window = args.data_window == "grow" ? io::DataWindowPolicy::grow : io::DataWindowPolicy::keep;
+  job.write.only_new_channels = args.ao_only;
+  const pipeline::Outputs outputs = outputs_of(args, job.input.source->info());
+  for (const std::string& view : job.input.views)
+    with_context(view.empty() ? job.input.found.pattern.text() : "view " + view,
+                 [&] { job.views.emplace_back(job.preset.preset, view, offer_of(job.input, view), outputs); });
+  return job;
+}
+
+}  // namespace aftershade::app

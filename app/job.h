@@ -1,0 +1,48 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "core/io/file_source.h"
+#include "core/pipeline/pipeline.h"
+#include "core/preset/preset.h"
+
+/// What will be done, resolved from what was typed and validated before frame 1.
+namespace aftershade::app {
+
+/// An input sequence, opened: profile, camera, channels by role, and the frames asked for.
+struct Input {
+  io::FoundSequence found;
+  std::vector<int> frames;  ///< the frames asked for that exist, sorted
+  std::vector<int> holes;   ///< the frames asked for that do not
+  io::Detected producer;
+  std::string unit;  ///< "m" ..., and where it comes from
+  std::string unit_origin;
+  std::unique_ptr<io::FileSource> source;
+  std::vector<std::string> views;
+};
+
+/// Opens INPUT. Throws for everything that is wrong with it; holes are an error unless --missing skip.
+Input open_input(const InputArgs& args);
+
+/// What the first frame of a view offers to the stages.
+pipeline::Offer offer_of(const Input& input, const std::string& view);
+
+/// The preset, changed by --set, reduced by --only and --skip.
+preset::Resolved resolve_preset(const PresetArgs& args);
+
+/// Frames to write and where.
+struct Job {
+  Input input;
+  preset::Resolved preset;
+  std::vector<pipeline::ViewPipeline> views;
+  std::vector<int> written;
+  std::function<std::string(int)> output_path;
+  io::WriteOptions write;
+  int preroll = 40;
+};
+Job resolve_job(const RenderArgs& args);
+
+}  // namespace aftershade::app

@@ -1,0 +1,51 @@
+#pragma once
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace aftershade::app {
+
+/// Messages to stderr; data goes to stdout. A note or warning that repeats from frame to frame is printed once, unless
+/// verbose.
+class Log {
+ public:
+  enum class Level { errors, normal, verbose };
+  void set_level(Level level) { level_ = level; }
+  bool verbose() const { return level_ == Level::verbose; }
+
+  void error(std::string_view text);
+  void warning(std::string_view text);
+  void note(std::string_view text);
+  void detail(std::string_view text);  ///< only with -v
+
+  /// A line that the next call overwrites; only for terminals.
+  void status_line(std::string_view text);
+  void end_status();
+
+ private:
+  void print(std::string_view prefix, std::string_view text);
+  bool first_time(std::string_view text) { return verbose() || said_.insert(std::string(text)).second; }
+  Level level_ = Level::normal;
+  std::set<std::string> said_;
+  bool status_shown_ = false;
+};
+
+/// The one log of the process.
+Log& log();
+
+/// How a run tells how far it is (--progress): a bar on a terminal, one line a frame elsewhere.
+class ProgressPrinter {
+ public:
+  enum class Kind { none, plain, bar };
+  explicit ProgressPrinter(Kind kind) : kind_(kind) {}
+  void update(int frame, size_t done, size_t total, double milliseconds);
+  void finish();
+
+ private:
+  Kind kind_;
+  double total_ms_ = 0;
+};
+/// "auto", "bar", "plain" or "none"; auto is a bar when stderr is a terminal, else plain.
+ProgressPrinter::Kind progress_kind(std::string_view name, bool quiet);
+
+}  // namespace aftershade::app

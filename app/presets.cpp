@@ -1,0 +1,53 @@
+#include <cstdio>
+
+#include "app/commands.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/preset/preset.h"
+
+namespace aftershade::app {
+
+namespace {
+
+void need_names(const PresetsArgs& args, size_t least, size_t most, std::string_view usage) {
+  if (args.names.size() < least || args.names.size() > most)
+    throw Error(ErrorCode::usage, cat("presets ", args.action, " takes ", usage), "see aftershade presets --help");
+}
+
+int list() {
+  for (const std::string& name : preset::shipped_presets())
+    std::printf("%-20s %s\n", name.c_str(), preset::load_preset(name).preset.description.c_str());
+  return 0;
+}
+
+int validate(const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    preset::load_preset(name);
+    std::printf("%s: valid\n", name.c_str());
+  }
+  return 0;
+}
+
+int diff(const std::string& a, const std::string& b) {
+  for (const std::string& line : preset::difference(preset::load_preset(a).preset, preset::load_preset(b).preset))
+    std::printf("%s\n", line.c_str());
+  return 0;
+}
+
+}  // namespace
+
+int presets(const PresetsArgs& args) {
+  if (args.action == "list") return need_names(args, 0, 0, "no name"), list();
+  if (args.action == "validate") return need_names(args, 1, 1000, "the files to check"), validate(args.names);
+  if (args.action == "diff") return need_names(args, 2, 2, "two names or files"), diff(args.names[0], args.names[1]);
+  if (args.action == "schema") {
+    need_names(args, 0, 0, "no name");
+    std::printf("%s\n", preset::schema().dump(2).c_str());
+    return 0;
+  }
+  need_names(args, 1, 1, "one name or file");
+  std::printf("%s\n", preset::to_json(preset::load_preset(args.names[0], args.sets).preset).dump(2).c_str());
+  return 0;
+}
+
+}  // namespace aftershade::app
