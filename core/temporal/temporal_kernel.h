@@ -30,18 +30,19 @@ struct FetchedHistory {
 /// quarter (algorithms 7.3). N is averaged like AO: it is the weight that the fetched mean deserves.
 inline FetchedHistory fetch_history(const HistoryView& h, Float x, Float y, Float expected, float epsilon) {
   const auto columns = static_cast<float>(h.depth.width), rows = static_cast<float>(h.depth.height);
-  const Float u = clamp(x - static_cast<float>(h.min_x) - 0.5F, -1.0F, columns);  // NaN becomes -1: weight 0 inside
-  const Float v = clamp(y - static_cast<float>(h.min_y) - 0.5F, -1.0F, rows);
-  const Float u0 = floor(u), v0 = floor(v);
+  const Float u = x - 0.5F, v = y - 0.5F, u0 = floor(u), v0 = floor(v);        // fractions do not depend on the window
+  const Float left = clamp(u0 - static_cast<float>(h.min_x), -2.0F, columns);  // NaN becomes -2: outside
+  const Float top = clamp(v0 - static_cast<float>(h.min_y), -2.0F, rows);
   Float sum = 0.0F, ao = 0.0F, count = 0.0F;
   for (int tap = 0; tap < 4; ++tap) {
-    const Float tu = u0 + static_cast<float>(tap & 1), tv = v0 + static_cast<float>(tap >> 1);
+    const auto right = static_cast<float>(tap & 1), below = static_cast<float>(tap >> 1);
+    const Float tu = left + right, tv = top + below;
     const Mask inside = (tu >= 0.0F) & (tu < columns) & (tv >= 0.0F) & (tv < rows);  // seed 000: borderZ = 0
     const Int row = to_int(clamp(tv, 0.0F, rows - 1.0F)) * Int(static_cast<int32_t>(h.depth.stride));
     const Int index = row + to_int(clamp(tu, 0.0F, columns - 1.0F));
     const Float z = gather(h.depth.data, index), n = gather(h.count.data, index);
     const Mask same = abs(1.0F - expected / z) < epsilon;  // seed 000, "Disocclusion Test"; algorithms 14, item 4
-    const Float weight = (1.0F - abs(u - tu)) * (1.0F - abs(v - tv));
+    const Float weight = (1.0F - abs(u - u0 - right)) * (1.0F - abs(v - v0 - below));
     const Float valid = select(inside & same & (z > 0.0F) & (n > 0.0F), weight, 0.0F);
     sum += valid;
     ao += valid * gather(h.ao.data, index);
