@@ -29,8 +29,8 @@ void compare(const StageDescription& a, const StageDescription& b, std::vector<s
     lines.push_back(cat(a.id, ".method: ", method_of(a.params), " -> ", method_of(b.params)));
     return;
   }
-  const Json after = values_of(b);
-  for (const auto& [key, value] : values_of(a).items())
+  const Json before = values_of(a), after = values_of(b);
+  for (const auto& [key, value] : before.items())
     if (value != after[key]) lines.push_back(cat(a.id, ".", key, ": ", text_of(value), " -> ", text_of(after[key])));
 }
 

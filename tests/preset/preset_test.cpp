@@ -1,0 +1,197 @@
+#include "core/preset/preset.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "core/base/error.h"
+
+namespace aftershade::preset {
+namespace {
+
+const StageDescription* stage(const Preset& preset, std::string_view id) {
+  for (const StageDescription& s : preset.stages)
+    if (s.id == id) return &s;
+  return nullptr;
+}
+
+template <class Params>
+const Params& get(const Preset& preset, std::string_view id) {
+  const StageDescription* s = stage(preset, id);
+  if (!s) throw std::runtime_error(preset.name + " has no " + std::string(id));
+  return std::get<Params>(s->params);
+}
+
+std::vector<std::string> ids(const Preset& preset) {
+  std::vector<std::string> out;
+  for (const StageDescription& s : preset.stages) out.push_back(s.id);
+  return out;
+}
+
+using Ids = std::vector<std::string>;
+
+TEST(ShippedPresets, AreTheSix) {
+  EXPECT_EQ(shipped_presets(),
+            (Ids{"high-current-gen", "high-dx11", "low-current-gen", "low-dx11", "ultra-current-gen", "ultra-dx11"}));
+}
+
+class ShippedPreset : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(All, ShippedPreset, testing::ValuesIn(shipped_presets()), [](const auto& param) {
+  std::string name = param.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+TEST_P(ShippedPreset, LoadsAndRoundTrips) {
+  const Preset preset = load_preset(GetParam()).preset;
+  EXPECT_EQ(preset.name, GetParam());
+  EXPECT_EQ(from_json(to_json(preset), preset.name), preset);
+  const params::Json reparsed = params::Json::parse(to_json(preset).dump());
+  EXPECT_EQ(from_json(reparsed, preset.name), preset);
+}
+
+TEST_P(ShippedPreset, SaysWhatIsOurs) {
+  const std::string description = load_preset(GetParam()).preset.description;
+  EXPECT_NE(description.find("urs"), std::string::npos);
+  EXPECT_NE(description.find("SIGGRAPH 2012"), std::string::npos);
+}
+
+TEST_P(ShippedPreset, HasStagesInTheirOrder) {
+  const Preset preset = load_preset(GetParam()).preset;
+  const bool half = get<ao::ScalableAoParams>(preset, "ao").resolution == ao::Resolution::half;
+  Ids expected{"ao", "blur", "upsample", "temporal", "apply", "motion_blur"};
+  if (!half) std::erase(expected, "upsample");
+  if (GetParam().starts_with("low")) std::erase(expected, "temporal");
+  EXPECT_EQ(ids(preset), expected);
+}
+
+TEST_P(ShippedPreset, KnowsTheOriginOfEveryValue) {
+  const Resolved resolved = load_preset(GetParam());
+  size_t values = 0;
+  for (const StageDescription& s : resolved.preset.stages)
+    for (const params::Record& record : table_of(s.params)) {
+      ++values;
+      EXPECT_TRUE(resolved.origins.contains(s.id + "." + record.key)) << s.id << "." << record.key;
+    }
+  EXPECT_EQ(resolved.origins.size(), values);
+}
+
+TEST(ShippedPresets, HighCurrentGenIsTheSeedsSet) {
+  const Preset preset = load_preset("high-current-gen").preset;
+  const auto& ao = get<ao::ScalableAoParams>(preset, "ao");
+  EXPECT_EQ(ao.resolution, ao::Resolution::full);
+  EXPECT_EQ(ao.pattern, ao::TapPattern::mirrored);
+  EXPECT_EQ(ao.taps, 4);
+  EXPECT_EQ(ao.max_radius_px, 20);
+  EXPECT_EQ(ao.reference_height_px, 720);
+  EXPECT_FALSE(ao.depth_mips);
+  const auto& blur = get<motionblur::ScalableBlurParams>(preset, "motion_blur");
+  EXPECT_EQ(blur.taps, 7);
+  EXPECT_EQ(blur.max_radius_px, 10);
+  EXPECT_EQ(blur.reference_height_px, 720);
+  EXPECT_EQ(blur.jitter, motionblur::Jitter::checkerboard);
+  EXPECT_EQ(blur.directions, motionblur::Directions::alternate);
+}
+
+TEST(ShippedPresets, HighDx11IsTheSeedsSet) {
+  const Preset preset = load_preset("high-dx11").preset;
+  const auto& ao = get<ao::ScalableAoParams>(preset, "ao");
+  EXPECT_EQ(ao.resolution, ao::Resolution::half);
+  EXPECT_EQ(ao.pattern, ao::TapPattern::spiral);
+  EXPECT_EQ(ao.taps, 9);
+  EXPECT_EQ(ao.max_radius_px, 0);
+  EXPECT_TRUE(ao.depth_mips);
+  const auto& temporal = get<temporal::SelectiveTemporalParams>(preset, "temporal");
+  EXPECT_EQ(temporal.epsilon, 0.1F);
+  EXPECT_EQ(temporal.distance_m, 0.1F);
+  EXPECT_EQ(temporal.dilation_texels, 4);
+  EXPECT_EQ(temporal.max_frames, 8);
+  const auto& blur = get<motionblur::ScalableBlurParams>(preset, "motion_blur");
+  EXPECT_EQ(blur.taps, 9);
+  EXPECT_EQ(blur.max_radius_px, 18);
+  EXPECT_EQ(blur.reference_height_px, 1080);
+  EXPECT_EQ(blur.jitter, motionblur::Jitter::random4x4);
+  EXPECT_EQ(blur.directions, motionblur::Directions::alternate);
+  EXPECT_EQ(blur.shutter_frames, 0.5F);
+}
+
+TEST(ShippedPresets, LowIsCheaperAndUltraFiner) {
+  for (const std::string set : {"current-gen", "dx11"}) {
+    const Preset low = load_preset("low-" + set).preset, high = load_preset("high-" + set).preset;
+    const Preset ultra = load_preset("ultra-" + set).preset;
+    EXPECT_EQ(get<ao::ScalableAoParams>(low, "ao").resolution, ao::Resolution::half);
+    EXPECT_EQ(get<ao::ScalableAoParams>(ultra, "ao").resolution, ao::Resolution::full);
+    EXPECT_EQ(get<ao::ScalableAoParams>(ultra, "ao").taps, 4 * get<ao::ScalableAoParams>(high, "ao").taps);
+    EXPECT_LT(get<motionblur::ScalableBlurParams>(low, "motion_blur").taps,
+              get<motionblur::ScalableBlurParams>(high, "motion_blur").taps);
+    EXPECT_LT(get<filter::BilateralBlurParams>(low, "blur").radius_px,
+              get<filter::BilateralBlurParams>(high, "blur").radius_px);
+    const auto width_px = [](const Preset& preset) {
+      const float texel = get<ao::ScalableAoParams>(preset, "ao").resolution == ao::Resolution::half ? 2 : 1;
+      return get<filter::BilateralBlurParams>(preset, "blur").radius_px * texel;
+    };
+    EXPECT_GT(width_px(ultra), width_px(high));
+  }
+}
+
+TEST(Difference, NamesWhatDiffers) {
+  const Preset a = load_preset("high-dx11").preset;
+  EXPECT_TRUE(difference(a, a).empty());
+  const Preset b = load_preset("high-dx11", {"ao.radius_m=1.5", "ao.pattern=mirrored", "upsample.remove=true"}).preset;
+  EXPECT_EQ(difference(a, b),
+            (Ids{"ao.pattern: spiral -> mirrored", "ao.radius_m: 1 -> 1.5", "upsample: only in high-dx11"}));
+  EXPECT_EQ(difference(b, a).back(), "upsample: only in high-dx11");
+  const Preset moved = load_preset("high-dx11", {"blur.after=upsample"}).preset;
+  EXPECT_EQ(difference(a, moved), (Ids{"order: ao, blur, upsample, temporal, apply, motion_blur -> "
+                                       "ao, upsample, blur, temporal, apply, motion_blur"}));
+  const Preset other = load_preset("high-dx11", {"blur.method=bilateral-upsample"}).preset;
+  EXPECT_EQ(difference(a, other), (Ids{"blur.method: bilateral-blur -> bilateral-upsample"}));
+}
+
+TEST(Methods, AreNamedAndFoundOnce) {
+  Ids names;
+  for (const MethodInfo& info : methods()) {
+    names.emplace_back(info.method);
+    EXPECT_FALSE(info.summary.empty());
+    EXPECT_NE(info.summary.back(), '.');
+  }
+  Ids unique = names;
+  std::sort(unique.begin(), unique.end());
+  EXPECT_EQ(std::unique(unique.begin(), unique.end()), unique.end());
+  EXPECT_EQ(names.size(), std::variant_size_v<StageParams>);
+}
+
+std::string read_text(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::stringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// With AFTERSHADE_REGENERATE set in the environment the committed file is rewritten instead of compared.
+TEST(Schema, IsWhatIsCommitted) {
+  const std::filesystem::path path = std::filesystem::path(AFTERSHADE_SOURCE_DIR) / "configs/preset.schema.json";
+  const std::string expected = schema().dump(2) + "\n";
+  if (std::getenv("AFTERSHADE_REGENERATE")) std::ofstream(path, std::ios::binary) << expected;
+  EXPECT_EQ(read_text(path), expected) << "the tables have changed; write the file anew with\n"
+                                          "  AFTERSHADE_REGENERATE=1 build/bin/test_preset --gtest_filter=Schema.*";
+}
+
+TEST(Schema, HasEveryMethodAndKey) {
+  const params::Json json = schema();
+  EXPECT_EQ(json["definitions"].size(), methods().size() + 1);
+  EXPECT_EQ(json["properties"]["stages"]["items"]["anyOf"].size(), methods().size() + 1);
+  for (const MethodInfo& info : methods()) {
+    const params::Json& definition = json["definitions"][std::string(info.method)];
+    EXPECT_EQ(definition["properties"]["method"]["const"], info.method);
+    EXPECT_EQ(definition["required"], params::Json::array({"id"}));
+    for (const params::Record& record : *info.table)
+      EXPECT_TRUE(definition["properties"].contains(record.key)) << record.key;
+  }
+}
+
+}  // namespace
+}  // namespace aftershade::preset
