@@ -22,7 +22,7 @@ struct SheetStyle {
   int gap_px = 16;               ///< between pictures, and around them
   int title_size_px = 22;        ///< font size
   int label_size_px = 16;        ///< font size
-  std::string font;              ///< a TrueType file; empty: DejaVu Sans from where distributions install it
+  std::string font{};            ///< a TrueType file; empty: DejaVu Sans from where distributions install it
 };
 
 struct Sheet {
