@@ -27,7 +27,8 @@ Vec3 where_it_was(const ReprojectionInput& input, double x, double y, double z, 
   const Vec3 before = static_surface(input, x, y, z);
   if (!std::isfinite(mv_x) || !std::isfinite(mv_y)) return before;
   if (!input.camera) return {x + mv_x, y + mv_y, z};
-  if (std::hypot(before.x - x - mv_x, before.y - y - mv_y) <= agreement_px) return before;
+  const double off_x = before.x - x - mv_x, off_y = before.y - y - mv_y;
+  if (off_x * off_x + off_y * off_y <= agreement_px * agreement_px) return before;
   return {x + mv_x, y + mv_y, before.z};
 }
 
