@@ -9,8 +9,9 @@ struct HalfVelocity {
 
 /// Half of shutter * displacement per frame, shortened to `max_radius` pixels where it is longer (slide "Render
 /// Velocity"; algorithms 2.1, 14 no. 24). The displacement is the mean of next and -prev where both are known, else the
-/// known one, else 0; a vector with a NaN or an infinity is unknown. Either pair may be empty (data == nullptr). The
-/// paper's least length of half a pixel is not stored: a gather raises |v| to it where it needs a radius.
+/// known one, else 0; a vector with a NaN, an infinity or a component of 1e15 and more is unknown. Either pair may be
+/// empty (data == nullptr). The paper's least length of half a pixel is not stored: a gather raises |v| to it where it
+/// needs a radius.
 HalfVelocity half_velocity(ConstPlaneView prev_x, ConstPlaneView prev_y, ConstPlaneView next_x, ConstPlaneView next_y,
                            float shutter_frames, float max_radius);
 

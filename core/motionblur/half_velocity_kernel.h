@@ -15,6 +15,9 @@ struct VelocityRow {
 
 namespace detail {
 
+/// A displacement as long as this is a sentinel, not a motion; its square still is a float.
+inline constexpr float kSentinel_px = 1e15F;
+
 struct Displacement {
   lanes::Float x, y;
   lanes::Mask known;
@@ -24,7 +27,7 @@ inline Displacement load_displacement(VelocityRow row, int i) {
   using namespace lanes;
   if (row.x == nullptr || row.y == nullptr) return {0.0F, 0.0F, Float(0.0F) > Float(0.0F)};
   const Float x = load(row.x + i), y = load(row.y + i);
-  const Mask known = is_finite(x) & is_finite(y);
+  const Mask known = (abs(x) < kSentinel_px) & (abs(y) < kSentinel_px);
   return {select(known, x, 0.0F), select(known, y, 0.0F), known};
 }
 

@@ -81,15 +81,17 @@ struct Gathered {
   Float weight;
 };
 
-inline void add_tap(const ScalableBlurKernel& k, Int x, Int y, Vector offset, Point centre, Gathered& sum) {
-  const Float dx = round(offset.x), dy = round(offset.y);
-  const Int sx = x + to_int(dx), sy = y + to_int(dy);
+/// The tap at `offset` from pixel (x, y), read at the nearest pixel. Its distance is that of the tap, not of the pixel,
+/// as in the slides, which do not round; it is also what algorithms 3.5 was computed with.
+inline void add_tap(const ScalableBlurKernel& k, Int x, Int y, Vector offset, Float distance, Point centre,
+                    Gathered& sum) {
+  const Int sx = x + to_int(round(offset.x)), sy = y + to_int(round(offset.y));
   const Mask inside = (sx >= Int(0)) & (sx < Int(k.width)) & (sy >= Int(0)) & (sy < Int(k.height));
   const Int index = clamp(sy, 0, k.height - 1) * Int(k.stride) + clamp(sx, 0, k.width - 1);
   const Float speed = gather(k.speed, index);
   const Mask usable = inside & (speed > 0.0F);
   const Point sample{max(speed, kLeastRadius_px), gather(k.depth, index)};
-  const Float weight = select(usable, tap_weight(k, centre, sample, sqrt(dx * dx + dy * dy)), 0.0F);
+  const Float weight = select(usable, tap_weight(k, centre, sample, distance), 0.0F);
   sum.weight += weight;
   for (int c = 0; c < k.channels; ++c) {
     const Float difference = gather(k.source[c], index) - sum.centre[c];
@@ -126,7 +128,7 @@ inline void scalable_blur_row(const ScalableBlurKernel& k, const ScalableBlurRow
       const Float t =
           (Float(static_cast<float>(i - middle)) + jitter) * spacing;  // algorithms 2.2: mix(-1, 1, (i+j+1)/(S+1))
       const Vector& v = (i & 1) != 0 ? second : neighbour;
-      add_tap(k, iota(x), y, {v.x * t, v.y * t}, centre, sum);
+      add_tap(k, iota(x), y, {v.x * t, v.y * t}, length * abs(t), centre, sum);
     }
     for (int c = 0; c < k.channels; ++c)
       store(row.target[c] + x, select(moving, sum.centre[c] + sum.difference[c] / sum.weight, sum.centre[c]));
