@@ -11,7 +11,7 @@ using FrameNumbers = std::vector<int>;
 
 /// "1001-1100", "1001-1100x2" (also ":2"), "-10--1", "1,5,7-9": throws Error(usage) with the offending piece.
 FrameNumbers parse_frames(std::string_view text);
-/// The shortest text that parse_frames reads back: "1001-1100x2,1200".
+/// A short text that parse_frames reads back: "1001-1100x2,1200".
 std::string format_frames(const FrameNumbers& frames);
 
 /// What one `#` stands for: one digit (Nuke, Blender, Gaffer), or OpenImageIO's four.
@@ -21,20 +21,21 @@ enum class HashDigits { one, oiio };
 /// range before the token (shot.1001-1100#.exr). Only the file name is searched, never the folder.
 struct Pattern {
   std::string folder;  ///< "." when none was given
-  std::string prefix, suffix;
+  std::string prefix{}, suffix{};
   int padding = 1;  ///< least number of digits; the sign is extra
-  std::optional<FrameNumbers> range;
-  bool has_token = true;  ///< false: a literal name without any frame number
+  std::optional<FrameNumbers> range{};
+  bool has_token = true;  ///< false: a literal name without any frame number; its frame is 0
   std::string path(int frame) const;
   std::string name(int frame) const;  ///< without folder
   std::string text() const;           ///< for messages: folder/prefix####suffix
 };
 
-/// A pattern written by a user; nullopt when there is no frame token in the file name.
+/// A pattern written by a user; nullopt when there is no frame token in the file name. The last token counts.
 std::optional<Pattern> parse_pattern(std::string_view text, HashDigits hash);
-/// The pattern of a literal frame: the last run of digits before the extension ("shot.1001.exr", "shot_v2.-5.exr").
+/// The pattern of a literal frame: the last run of digits before the extension ("shot.1001.exr", "shot_v2.-5.exr"); a version or a size
+/// ("_v2", "4k") is not one. Its padding is the number of digits.
 std::optional<Pattern> pattern_of_frame(std::string_view path);
-/// The frame number of a file name under a pattern, if it matches.
+/// The frame number of a file name under a pattern, if it matches: at least `padding` digits, no zeros beyond them.
 std::optional<int> frame_of_name(const Pattern& pattern, std::string_view name);
 
 /// Frames and their paths, ordered by number; pure data, no disk.
