@@ -33,7 +33,8 @@ struct SelectiveTemporalParams {
   bool operator==(const SelectiveTemporalParams&) const = default;
 };
 
-/// What the filter keeps from one frame to the next. Cleared: ao 1, depth 0, count 0 (seed 000, "History Buffers").
+/// What the filter keeps from one frame to the next. Background has depth 0. Cleared: ao 1, depth 0, count 0 (seed 000,
+/// "History Buffers").
 struct TemporalHistory {
   Window window;  ///< absolute coordinates of the planes
   Plane ao, depth, count;

@@ -40,13 +40,14 @@ inline FetchedHistory fetch_history(const HistoryView& h, Float x, Float y, Floa
     const Mask inside = (tu >= 0.0F) & (tu < columns) & (tv >= 0.0F) & (tv < rows);  // seed 000: borderZ = 0
     const Int row = to_int(clamp(tv, 0.0F, rows - 1.0F)) * Int(static_cast<int32_t>(h.depth.stride));
     const Int index = row + to_int(clamp(tu, 0.0F, columns - 1.0F));
-    const Float z = gather(h.depth.data, index), n = gather(h.count.data, index);
-    const Mask same = abs(1.0F - expected / z) < epsilon;  // seed 000, "Disocclusion Test"; algorithms 14, item 4
+    const Float z = gather(h.depth.data, index);
+    // Seed 000, "Disocclusion Test"; algorithms 14, item 4. No history is depth 0, where the ratio is infinite.
+    const Mask same = abs(1.0F - expected / z) < epsilon;
     const Float weight = (1.0F - abs(u - u0 - right)) * (1.0F - abs(v - v0 - below));
-    const Float valid = select(inside & same & (z > 0.0F) & (n > 0.0F), weight, 0.0F);
+    const Float valid = select(inside & same, weight, 0.0F);
     sum += valid;
     ao += valid * gather(h.ao.data, index);
-    count += valid * n;
+    count += valid * gather(h.count.data, index);
   }
   return {ao / sum, count / sum, sum >= 0.25F};
 }

@@ -1,6 +1,5 @@
 #include <array>
 #include <utility>
-#include <vector>
 
 #include "core/temporal/selective_temporal.h"
 #include "tests/temporal/temporal_helpers.h"
@@ -53,33 +52,39 @@ Plane rough_depth(int width, int height) {
   });
 }
 
+void expect_reference(const SelectiveTemporalParams& params, const filter::SampleGrid& grid, ConstPlaneView depth,
+                      Projection lens) {
+  const Plane mask = continuity_mask(params, grid, surface_of(depth, lens));
+  int ones = 0, unsure = 0;
+  for (int y = 0; y < grid.height(); ++y)
+    for (int x = 0; x < grid.width(); ++x) {
+      const int want = reference_continuity(params, grid, lens, x, y);
+      if (want >= 0) {
+        ASSERT_EQ(mask(x, y), static_cast<float>(want)) << x << " " << y << " step " << grid.step;
+      }
+      ones += want == 1 ? 1 : 0;
+      unsure += want < 0 ? 1 : 0;
+    }
+  const int texels = grid.width() * grid.height();
+  EXPECT_LE(unsure, 2);
+  EXPECT_GT(ones, texels / 40);
+  EXPECT_LT(ones, texels * 39 / 40);
+}
+
 TEST(Continuity, EqualsTheReferenceOnFullAndHalfGrids) {
-  const Plane depth = rough_depth(41, 29);
+  const Plane depth = rough_depth(141, 129);
   for (const bool orthographic : {false, true})
-    for (const float footprints : {0.0F, 3.0F}) {
-      Projection lens = kLens;
-      lens.orthographic = orthographic;
+    for (const float footprints : {0.0F, 1.2F}) {
       SelectiveTemporalParams params;
       params.distance_footprints = footprints;
-      std::vector<filter::SampleGrid> grids;
-      grids.push_back(hand_grid(depth));
-      grids.push_back(hand_half_grid(depth, 0, 0));
-      grids.push_back(hand_half_grid(depth, -1, -1));
+      Projection lens = kLens, wide{12, 11, 20.5F, 14, orthographic};
+      lens.orthographic = orthographic;
+      const filter::SampleGrid grids[] = {hand_grid(depth), hand_half_grid(depth, 0, 0), hand_half_grid(depth, -1, -1)};
       for (const filter::SampleGrid& grid : grids) {
-        const Plane mask = continuity_mask(params, grid, surface_of(depth, lens));
-        int ones = 0, unsure = 0;
-        for (int y = 0; y < grid.height(); ++y)
-          for (int x = 0; x < grid.width(); ++x) {
-            const int want = reference_continuity(params, grid, lens, x, y);
-            if (want >= 0) {
-              ASSERT_EQ(mask(x, y), static_cast<float>(want)) << x << " " << y << " step " << grid.step;
-            }
-            ones += want == 1 ? 1 : 0;
-            unsure += want < 0 ? 1 : 0;
-          }
-        EXPECT_LE(unsure, 1);
-        EXPECT_GT(ones, grid.width() * grid.height() / 40);
-        EXPECT_LT(ones, grid.width() * grid.height() * 39 / 40);
+        params.distance_m = 0.1F;
+        expect_reference(params, grid, depth, lens);
+        params.distance_m = orthographic ? 0.2F : 0.9F;
+        expect_reference(params, grid, depth, wide);
       }
     }
 }
@@ -89,11 +94,14 @@ TEST(Continuity, TheThresholdIsExactAndStrict) {
   const Plane depth(5, 5, 3.0F);
   const filter::SampleGrid grid = hand_grid(depth);
   const filter::Surface surface = surface_of(depth, {8, 8, 2.5F, 2.5F, true});
+  const filter::Surface columns = surface_of(depth, {8, 100, 2.5F, 2.5F, true});  // only x decides
+  const filter::Surface rows = surface_of(depth, {100, 8, 2.5F, 2.5F, true});     // only y decides
   SelectiveTemporalParams params;
   params.distance_footprints = 0;
   for (const auto& [limit, want] : {std::pair(0.125F, 0.0F), {std::nextafter(0.125F, 1.0F), 1.0F}}) {
     params.distance_m = limit;
-    EXPECT_EQ(different_pixels(continuity_mask(params, grid, surface), Plane(5, 5, want)), 0) << limit;
+    for (const filter::Surface& seen : {surface, columns, rows})
+      EXPECT_EQ(different_pixels(continuity_mask(params, grid, seen), Plane(5, 5, want)), 0) << limit;
   }
   params.distance_m = 0;
   params.distance_footprints = 1;  // the footprint is the same 0.125 m
@@ -128,6 +136,8 @@ TEST(Continuity, BackgroundIsUnstableAndOneLineImagesWork) {
   const Plane mask = continuity_mask({}, hand_grid(depth), surface_of(depth, kLens));
   const float want[] = {0, 0, 1, 1, 0};  // pixel 0 has only background beside it
   for (int x = 0; x < 5; ++x) EXPECT_EQ(mask(x, 0), want[x]) << x;
+  const Plane at_eye = plane_of(3, 1, [](int x, int) { return x == 1 ? 0.0F : 0.05F; });
+  EXPECT_EQ(continuity_mask({}, hand_grid(at_eye), surface_of(at_eye, kLens))(1, 0), 0.0F) << "depth 0 is no surface";
   const Plane single(1, 1, 3.0F);
   EXPECT_EQ(continuity_mask({}, hand_grid(single), surface_of(single, kLens))(0, 0), 1.0F);
 }

@@ -9,14 +9,14 @@ using temporal::VelocityPlanes;
 
 TEST(ScatterVelocity, TranslationGivesTheExactVectorBackAndHolesAtTheBorder) {
   const Window window = window_of(20, 9, -3, 40);
-  const Plane mv_x(20, 9, 4.3F), mv_y(20, 9, -2.2F), depth(20, 9, 5.0F);
+  const Plane mv_x(20, 9, 4.7F), mv_y(20, 9, -2.2F), depth(20, 9, 5.0F);
   const VelocityPlanes got = scatter_velocity(mv_x, mv_y, depth, window, window);
   for (int y = 0; y < 9; ++y)
     for (int x = 0; x < 20; ++x) {
-      const bool covered = x >= 4 && y < 7;
+      const bool covered = x >= 5 && y < 7;  // centres: 0.5 + 4.7 lies in pixel 5
       ASSERT_EQ(std::isnan(got.x(x, y)), !covered) << x << " " << y;
       if (covered) {
-        ASSERT_EQ(got.x(x, y), -4.3F);
+        ASSERT_EQ(got.x(x, y), -4.7F);
         ASSERT_EQ(got.y(x, y), 2.2F);
       }
     }
@@ -56,6 +56,17 @@ TEST(ScatterVelocity, BackgroundLosesAgainstAnySurfaceAndBadVectorsAreSkipped) {
   EXPECT_EQ(got.x(0, 0), 0.0F);
   EXPECT_EQ(got.x(2, 0), -1.0F);
   for (const int x : {1, 3, 4, 5}) EXPECT_TRUE(std::isnan(got.x(x, 0))) << x;
+}
+
+TEST(ScatterVelocity, DepthsThatAreNoneCountAsBackground) {
+  for (const float none : {kNaN, 0.0F, -1.0F, kInf})
+    for (const int from : {0, 2}) {  // the surface arrives on the bad pixel before and after it
+      Plane depth(3, 1, none), mv_x(3, 1, 0.0F), mv_y(3, 1, 0.0F);
+      depth(from, 0) = 50;
+      mv_x(from, 0) = static_cast<float>(1 - from);
+      const VelocityPlanes got = scatter_velocity(mv_x, mv_y, depth, window_of(3, 1), window_of(3, 1));
+      EXPECT_EQ(got.x(1, 0), static_cast<float>(from - 1)) << none;
+    }
 }
 
 TEST(ScatterVelocity, WindowsAreAlignedByAbsoluteCoordinates) {
