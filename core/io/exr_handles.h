@@ -1,0 +1,53 @@
+#pragma once
+#include <ImfFrameBuffer.h>
+#include <ImfMultiPartInputFile.h>
+
+#include <exception>
+#include <memory>
+#include <new>
+#include <string>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/io/exr_layout.h"
+#include "core/io/exr_reader.h"
+
+namespace aftershade::io {
+
+/// The OpenEXR objects of an open file. The order of the members is the order in which they need each other.
+struct ExrReader::Handles {
+  FileInfo info;
+  FileBytes bytes;
+  ExrLayout layout;
+  SourceStream stream;
+  std::unique_ptr<Imf::MultiPartInputFile> file;
+
+  explicit Handles(const std::string& path) : bytes(path), stream(bytes, path) { info.path = path; }
+};
+
+/// "part beauty of shot.0001.exr", or the path alone when the file has one part without a name.
+std::string part_text(const FileInfo& info, int part);
+
+/// Runs `work`; whatever OpenEXR throws becomes an Error that starts with `subject` (a file, or a part of one).
+template <class Work>
+auto guarded(const std::string& subject, Work&& work) {
+  try {
+    return work();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorCode::memory, cat(subject, " needs more memory than there is"));
+  } catch (const std::exception& error) {
+    throw Error(ErrorCode::data, cat(subject, " is damaged: ", error.what()), "render or copy it again");
+  }
+}
+
+/// A frame buffer slice: `data` points to the pixel at the upper left corner of `window`. OpenEXR wants the address of
+/// absolute pixel (0, 0), which may lie outside the memory: integer arithmetic, as pointers may not go there.
+Imf::Slice slice(Imf::PixelType type, void* data, Window window, size_t x_stride, size_t y_stride);
+
+/// Decodes rows [first, last] of a part into the frame buffer, whose slices cover the data window's columns; tiled
+/// parts are decoded whole. Throws what OpenEXR throws.
+void decode(const ExrReader::Handles& handles, int part, const Imf::FrameBuffer& target, int first, int last);
+
+}  // namespace aftershade::io

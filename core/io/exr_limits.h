@@ -1,0 +1,11 @@
+#pragma once
+#include "core/io/exr_layout.h"
+#include "core/io/exr_reader.h"
+
+namespace aftershade::io {
+
+/// Throws Error(data) when a part is deep, subsampled, mip- or rip-mapped, or asks for more than the limits or than a
+/// file of this size can hold (reliability 1.3): before any pixel memory is taken.
+void check_parts(const ExrLayout& layout, const ReadLimits& limits, int64_t file_size, const FileInfo& info);
+
+}  // namespace aftershade::io
