@@ -4,9 +4,9 @@
 namespace aftershade::tests {
 
 namespace {
-const Material kTiles{{0.56, 0.47, 0.37}, {0.24, 0.21, 0.18}, Pattern::tiles, 0.36};
-const Material kBricks{{0.50, 0.23, 0.15}, {0.50, 0.46, 0.41}, Pattern::bricks, 0.34};
-const Material kLimestone{{0.70, 0.66, 0.58}};
+const Material kTiles{{0.44, 0.37, 0.29}, {0.24, 0.21, 0.18}, Pattern::tiles, 0.36};
+const Material kBricks{{0.42, 0.19, 0.12}, {0.44, 0.40, 0.35}, Pattern::bricks, 0.34};
+const Material kLimestone{{0.60, 0.56, 0.49}};
 const Material kWood{{0.36, 0.22, 0.12}, {0.30, 0.18, 0.10}, Pattern::stripes, 0.05};
 const Material kTerracotta{{0.60, 0.27, 0.15}};
 const Material kLeaves{{0.08, 0.22, 0.05}, {0.22, 0.38, 0.08}, Pattern::mottled, 0.08};
@@ -92,18 +92,18 @@ Scene garden_scene() {
   garden.put(Box{{0.2, 0.22, 0.2}}, kLimestone, {-2.3, kTerraceTop_m + 0.22, 0.45}, 0.06);
   garden.put(Sphere{0.24}, kLimestone, {-2.3, kTerraceTop_m + 0.68, 0.45});
   constexpr double kBallRadius_m = 0.23, kBallSpeed_m = 0.26;
-  garden.put_moving(Sphere{kBallRadius_m}, kBall, {0.15, kTerraceTop_m + kBallRadius_m, 0.75}, {kBallSpeed_m, 0, 0},
+  garden.put_moving(Sphere{kBallRadius_m}, kBall, {-0.1, kTerraceTop_m + kBallRadius_m, 0.75}, {kBallSpeed_m, 0, 0},
                     -kBallSpeed_m / (2 * 3.14159265358979 * kBallRadius_m));
-  garden.cart({0.3, kTerraceTop_m, -0.35}, {-0.15, 0, 0});
-  add_lawn(scene.objects, {-3.4, 3.6, 1.78, 3.0, 3600, 0.24, 0.012, 1});
+  garden.cart({1.2, kTerraceTop_m, -0.3}, {-0.15, 0, 0});
+  add_lawn(scene.objects, {-3.4, 3.6, 1.76, 3.0, 4400, 0.24, 0.012, 1});
   add_lawn(scene.objects, {-3.6, 3.2, -2.4, -1.85, 1200, 0.32, 0.014, 2});
   add_lawn(scene.objects, {-4.4, -2.85, -1.8, 1.7, 1800, 0.28, 0.013, 3});
   scene.light.to_sun = {-0.5, 0.72, 0.42};
-  scene.camera.eye.origin = {-0.55, 1.5, 4.7};
+  scene.camera.eye.origin = {-0.75, 1.75, 5.6};
   scene.camera.eye.velocity = {0.06, 0, 0};
-  scene.camera.target.origin = {0.05, 0.72, 0};
+  scene.camera.target.origin = {-0.1, 0.84, 0};
   scene.camera.target.velocity = {0.035, 0, 0};
-  scene.camera.horizontal_fov_deg = 54;
+  scene.camera.horizontal_fov_deg = 52;
   return scene;
 }
 
