@@ -86,8 +86,16 @@ inline ProjectedRadius projected_radius(const ScalableAoRow& row, Float z) {
   return {min(x_px * share, kFarOutside), min(y_px * share, kFarOutside), row.radius_m * share};
 }
 
+/// What all taps together would weigh in scalable_ao_row, added in the same order.
+inline float falloff_sum(std::span<const Tap> taps) {
+  float sum = 0;
+  for (const Tap& tap : taps) sum += 1.0F - tap.radius;
+  return sum;
+}
+
 inline void scalable_ao_row(const ScalableAoRow& row, int y) {
   const Samples& image = row.depth.levels[0];
+  const float all_inside = falloff_sum(row.taps), tap_count = static_cast<float>(row.taps.size());
   for (int x0 = 0; x0 < row.grid.depth.width; x0 += kLanes) {
     const Int x = row.grid.depth.clamp_x(iota(x0)), iy = y;
     const Float z = row.grid.depth(x, iy);
@@ -112,11 +120,12 @@ inline void scalable_ao_row(const ScalableAoRow& row, int y) {
       const Point point = tap_point(row.depth, row.lens, image.clamp_x(tx), image.clamp_y(ty), level);
       const Float occlusion = tap_occlusion(point - centre, normal, radius.m, row.bias);
       sum += select(in_frame & filter::is_surface(point.z), occlusion, 0.0F);
-      inside += select(in_frame, Float(1.0F), 0.0F);
+      inside += select(in_frame, Float(1.0F - tap.radius), 0.0F);
     }
-    // "Total Occlusion" slide: AO_T = (2 scale / S sum AO_s)^2. S counts the taps inside the image (ours): counting the
-    // others as open would brighten the borders. Taps on background count: nothing is there.
-    const Float mean = sum / max(inside, 1.0F);
+    // "Total Occlusion" slide: AO_T = (2 scale / S sum AO_s)^2. Taps outside the image are made up for (ours), since to
+    // count them as open would brighten the borders: they stand for as much occlusion as those inside, each by the
+    // distance falloff of its radius. The factor is 1 where all taps are inside. Taps on background count as open.
+    const Float mean = sum / tap_count * select(inside > 0.0F, all_inside / inside, 0.0F);
     const Float total = 2.0F * row.scale * mean;
     store(row.out + x0, select(here, 1.0F - sat(total * total), 1.0F));
   }

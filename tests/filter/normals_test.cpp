@@ -54,7 +54,8 @@ TEST(NormalsFromDepth, AreZeroOnBackgroundAndUnknownDepth) {
     for (int x = 0; x < 10; ++x) {
       const double expected = y == 4 && x % 2 == 0 ? 0 : 1;
       EXPECT_NEAR(normal_at(n, x, y).length(), expected, 1e-6) << x << ' ' << y;
-      EXPECT_LE(normal_at(n, x, y).dot(lens.point(x + 0.5, y + 0.5, 1)), expected == 1 ? -1e-3 : 0) << "must face the camera";
+      EXPECT_LE(normal_at(n, x, y).dot(lens.point(x + 0.5, y + 0.5, 1)), expected == 1 ? -1e-3 : 0)
+          << "must face the camera";
     }
 }
 

@@ -46,7 +46,8 @@ TEST(SampleGrid, HalfPicksNearestAndFarthestInACheckerboardOfAbsoluteBlocks) {
           std::set<std::pair<int, int>> blocks;
           for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x)
-              blocks.insert({static_cast<int>(std::floor((origin_x + x) / 2.0)), static_cast<int>(std::floor((origin_y + y) / 2.0))});
+              blocks.insert({static_cast<int>(std::floor((origin_x + x) / 2.0)),
+                             static_cast<int>(std::floor((origin_y + y) / 2.0))});
           ASSERT_EQ(static_cast<size_t>(grid.width() * grid.height()), blocks.size());
           for (const auto& [bx, by] : blocks) {
             float nearest = kInf, farthest = 0;
@@ -58,7 +59,8 @@ TEST(SampleGrid, HalfPicksNearestAndFarthestInACheckerboardOfAbsoluteBlocks) {
             const int gx = (2 * bx - origin_x - grid.origin_x) / 2, gy = (2 * by - origin_y - grid.origin_y) / 2;
             const bool even = ((bx + by) % 2 + 2) % 2 == 0;
             EXPECT_EQ(grid.depth(gx, gy), even ? nearest : farthest);
-            EXPECT_EQ(p.depth(static_cast<int>(grid.pixel_x(gx, gy)), static_cast<int>(grid.pixel_y(gx, gy))), grid.depth(gx, gy));
+            EXPECT_EQ(p.depth(static_cast<int>(grid.pixel_x(gx, gy)), static_cast<int>(grid.pixel_y(gx, gy))),
+                      grid.depth(gx, gy));
           }
         }
 }
@@ -85,7 +87,8 @@ TEST(DepthPyramid, HoldsDepthsThatExistByTheRotatedGrid) {
     ASSERT_EQ(coarse.height, (fine.height + 1) / 2);
     for (int y = 0; y < coarse.height; ++y)
       for (int x = 0; x < coarse.width; ++x)
-        EXPECT_EQ(coarse(x, y), fine(std::min(2 * x + (y & 1), fine.width - 1), std::min(2 * y + (x & 1), fine.height - 1)));
+        EXPECT_EQ(coarse(x, y),
+                  fine(std::min(2 * x + (y & 1), fine.width - 1), std::min(2 * y + (x & 1), fine.height - 1)));
   }
 }
 
