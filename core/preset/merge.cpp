@@ -1,6 +1,7 @@
 #include "core/preset/merge.h"
 
 #include <algorithm>
+#include <cctype>
 #include <optional>
 #include <set>
 
