@@ -37,6 +37,7 @@ struct Candidate {
   Encoding encoding;
 };
 
+/// Attribute names (patterns; the identical spelling goes first).
 struct CameraAttributes {
   std::string world_to_camera = "worldToCamera";
   std::string world_to_ndc = "worldToNDC";

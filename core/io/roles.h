@@ -41,13 +41,25 @@ std::optional<std::string> name_in_view(const FileInfo& info, int part, const st
                                         const std::string& view);
 
 /// The roles of a view: user overrides first ("depth" -> "foo.Z", comma lists for roles of several planes), else the
-/// profile's candidates in order. Throws Error(no_input) when an override names a channel that does not exist (with the
-/// nearest names).
+/// profile's candidates in order. A `*.Z` beside X and Y is a vector's component and never depth. Throws
+/// Error(no_input) when an override names a channel that does not exist (with the nearest name), Error(usage) for an
+/// unknown role (the key "color" is resolve_colors' own).
 std::vector<RoleBinding> resolve_roles(const FileInfo& info, const std::string& view, const Profile& profile,
                                        const std::map<std::string, std::string>& overrides);
 
-/// The beauty (profile's colour candidates) and the other layers that hold colour: groups of channels with the same
-/// prefix and part whose suffixes are R G B [A] (any case, also red green blue alpha).
-std::vector<ColorBinding> resolve_colors(const FileInfo& info, const std::string& view, const Profile& profile);
+/// The beauty (profile's colour candidates, or the override "color" -> "foo.R,foo.G,foo.B"), and the other layers that
+/// hold colour: groups of channels with the same prefix and part whose suffixes are R G B [A] (any case, also red green
+/// blue alpha). Cryptomatte layers, by the names of the header or by custom, are no colour.
+std::vector<ColorBinding> resolve_colors(const FileInfo& info, const std::string& view, const Profile& profile,
+                                         const std::map<std::string, std::string>& overrides = {},
+                                         const std::vector<std::string>& cryptomattes = {});
+
+/// The layer that a user names: "beauty", one of `colors`, any group of channels, or one channel. Error(no_input) with
+/// the nearest name; Error(usage) for a Cryptomatte.
+ColorBinding find_layer(const FileInfo& info, const std::string& view, const std::vector<ColorBinding>& colors,
+                        const std::string& name, const std::vector<std::string>& cryptomattes = {});
+
+/// The names of the Cryptomattes that a file's headers declare.
+std::vector<std::string> cryptomatte_names(const ExrReader& file);
 
 }  // namespace aftershade::io
