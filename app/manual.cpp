@@ -13,15 +13,10 @@ namespace {
 std::string roff(std::string_view text) {
   std::string out;
   for (const char c : text) {
-    if (c == '\\') {
-      out += "\\e";
-    } else if (c == '-') {
-      out += "\\-";
-    } else if ((c == '.' || c == '\'') && out.empty()) {
-      out += std::string("\\&") + c;
-    } else {
-      out += c;
-    }
+    if ((c == '.' || c == '\'') && out.empty()) out += "\\&";
+    if (c == '-') out += '\\';
+    out += c;
+    if (c == '\\') out += 'e';
   }
   return out;
 }
