@@ -12,7 +12,8 @@ namespace aftershade::tests {
 /// A sequence made by a function, and what a run loaded of it.
 class MemorySource final : public FrameSource {
  public:
-  MemorySource(std::set<int> frames, std::function<Frame(int)> make) : frames_(std::move(frames)), make_(std::move(make)) {}
+  MemorySource(std::set<int> frames, std::function<Frame(int)> make)
+      : frames_(std::move(frames)), make_(std::move(make)) {}
   std::optional<Frame> load(int number, const std::string& view, RoleSet roles, bool with_layers) override {
     if (!frames_.contains(number)) return std::nullopt;
     loads.push_back({number, with_layers});
@@ -77,7 +78,8 @@ inline Frame blade_frame(int number) {
       const double world_x = (x + 0.5 - camera.cx) / camera.fx * 2.5 + number * step_m;
       const bool blade = std::fmod(world_x / (7 * 2.5 / camera.fx) + 1000, 1.0) < 2.0 / 7;
       depth(x, y) = blade ? 2.5F : 4.0F;
-      mv(x, y) = static_cast<float>(step_m * camera.fx / (blade ? 2.5 : 4.0));  // the scene moves left, so it was to the right
+      mv(x, y) =
+          static_cast<float>(step_m * camera.fx / (blade ? 2.5 : 4.0));  // the scene moves left, so it was to the right
     }
   Layer beauty;
   beauty.channels = {"R", "G", "B", "A"};

@@ -24,8 +24,8 @@ preset::Preset preset_of(const std::string& name, const std::vector<std::string>
 }
 
 /// Runs a preset over the blades and returns what was written.
-MemorySink run_blades(const preset::Preset& preset, std::vector<int> written, int preroll = kPrerollAll, Outputs outputs = {"AO", true, {}},
-                      MemorySource source = {frames_1_to(8), tests::blade_frame}) {
+MemorySink run_blades(const preset::Preset& preset, std::vector<int> written, int preroll = kPrerollAll,
+                      Outputs outputs = {"AO", true, {}}, MemorySource source = {frames_1_to(8), tests::blade_frame}) {
   std::vector<ViewPipeline> views;
   views.emplace_back(preset, "", kEverything, outputs);
   MemorySink sink;
@@ -47,33 +47,44 @@ std::string message_of(const std::function<void()>& work) {
 }
 
 TEST(ViewPipeline, NamesTheStageAndTheRoleThatIsMissing) {
-  const std::string text = message_of([] { ViewPipeline(preset_of("high-dx11"), "", {{Role::velocity_prev}, true, true}, {}); });
+  const std::string text = message_of([] {
+    ViewPipeline(preset_of("high-dx11"), "", {{Role::velocity_prev}, true, true}, {});
+  });
   EXPECT_NE(text.find("stage ao (scalable-ao) needs depth"), std::string::npos) << text;
   EXPECT_NE(text.find("--channel"), std::string::npos) << text;
 }
 
 TEST(ViewPipeline, MotionBlurNeedsEitherVelocity) {
-  const std::string text = message_of([] { ViewPipeline(preset_of("high-dx11"), "", {{Role::depth}, true, true}, {}); });
+  const std::string text = message_of([] {
+    ViewPipeline(preset_of("high-dx11"), "", {{Role::depth}, true, true}, {});
+  });
   EXPECT_NE(text.find("velocity_prev or velocity_next"), std::string::npos) << text;
 }
 
 TEST(ViewPipeline, AsksForAFieldOfView) {
-  const std::string text = message_of([] { ViewPipeline(preset_of("high-dx11"), "", {kEverything.roles, false, false}, {}); });
+  const std::string text = message_of([] {
+    ViewPipeline(preset_of("high-dx11"), "", {kEverything.roles, false, false}, {});
+  });
   EXPECT_NE(text.find("--fov"), std::string::npos) << text;
 }
 
 TEST(ViewPipeline, RefusesAnOrderThatCannotWork) {
   preset::Preset preset = preset_of("high-dx11");
   std::erase_if(preset.stages, [](const auto& stage) { return stage.id == "upsample"; });
-  EXPECT_NE(message_of([&] { ViewPipeline(preset, "", kEverything, {}); }).find("bilateral-upsample"), std::string::npos);
+  EXPECT_NE(message_of([&] { ViewPipeline(preset, "", kEverything, {}); }).find("bilateral-upsample"),
+            std::string::npos);
   std::erase_if(preset.stages, [](const auto& stage) { return stage.id == "ao"; });
-  EXPECT_NE(message_of([&] { ViewPipeline(preset, "", kEverything, {}); }).find("no stage before it makes any"), std::string::npos);
+  EXPECT_NE(message_of([&] { ViewPipeline(preset, "", kEverything, {}); }).find("no stage before it makes any"),
+            std::string::npos);
 }
 
 TEST(ViewPipeline, AoChannelNeedsAStageThatMakesIt) {
   preset::Preset preset = preset_of("high-dx11");
   std::erase_if(preset.stages, [](const auto& stage) { return stage.id != "motion_blur"; });
-  EXPECT_NE(message_of([&] { ViewPipeline(preset, "", kEverything, {"AO", true, {}}); }).find("--ao"), std::string::npos);
+  EXPECT_NE(message_of([&] {
+              ViewPipeline(preset, "", kEverything, {"AO", true, {}});
+            }).find("--ao"),
+            std::string::npos);
 }
 
 TEST(Run, EveryShippedPresetRunsAndStaysInRange) {
@@ -99,14 +110,16 @@ TEST(Run, ChunksAreIdenticalToOneRunWhenThePrerollIsExact) {
   const MemorySink chunk = run_blades(preset_of("high-dx11"), {6, 7, 8});
   for (const int frame : {6, 7, 8})
     for (const char* channel : {"R", "A", "AO"})
-      EXPECT_TRUE(tests::same_pixels(whole.planes.at(frame).at(channel), chunk.planes.at(frame).at(channel))) << frame << " " << channel;
+      EXPECT_TRUE(tests::same_pixels(whole.planes.at(frame).at(channel), chunk.planes.at(frame).at(channel)))
+          << frame << " " << channel;
 }
 
 TEST(Run, HistoryMattersAndAGapForgetsIt) {
   const MemorySink with = run_blades(preset_of("high-dx11"), {6});
   const MemorySink without = run_blades(preset_of("high-dx11"), {6}, 0);
   EXPECT_FALSE(tests::same_pixels(with.planes.at(6).at("AO"), without.planes.at(6).at("AO")));
-  const MemorySink after_gap = run_blades(preset_of("high-dx11"), {6}, kPrerollAll, {"AO", true, {}}, {{1, 2, 3, 4, 6}, tests::blade_frame});
+  const MemorySink after_gap =
+      run_blades(preset_of("high-dx11"), {6}, kPrerollAll, {"AO", true, {}}, {{1, 2, 3, 4, 6}, tests::blade_frame});
   EXPECT_TRUE(tests::same_pixels(after_gap.planes.at(6).at("AO"), without.planes.at(6).at("AO")));
 }
 
@@ -143,13 +156,15 @@ TEST(Run, CarriedForwardVectorsReplaceMissingBackwardOnes) {
     for (const auto& result : progress.results) notes.insert(notes.end(), result.notes.begin(), result.notes.end());
   };
   run(views, source, sink, options);
-  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& n) { return n.find("carried forward") != std::string::npos; }));
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(),
+                          [](const std::string& n) { return n.find("carried forward") != std::string::npos; }));
 }
 
 TEST(Run, DiagnosticsAreChannelsOfTheFramesSize) {
   Outputs outputs{"AO", true, {true, false}};
   const MemorySink sink = run_blades(preset_of("high-dx11"), {2}, kPrerollAll, outputs);
-  for (const char* name : {"aftershade.ao_raw", "aftershade.mask", "aftershade.count", "aftershade.tile_velocity.x", "aftershade.tile_velocity.y"}) {
+  for (const char* name : {"aftershade.ao_raw", "aftershade.mask", "aftershade.count", "aftershade.tile_velocity.x",
+                           "aftershade.tile_velocity.y"}) {
     ASSERT_TRUE(sink.planes.at(2).contains(name)) << name;
     EXPECT_EQ(sink.planes.at(2).at(name).width(), 48) << name;
   }
@@ -213,7 +228,8 @@ TEST(Run, DataWindowKeepsAndSaysWhatIsCutOffOrGrows) {
   for (const bool grow : {false, true}) {
     MemorySource source({1}, cropped_frame);
     std::vector<ViewPipeline> views;
-    views.emplace_back(preset, "", Offer{{Role::velocity_prev, Role::velocity_next}, false, false}, Outputs{{}, true, {false, grow}});
+    views.emplace_back(preset, "", Offer{{Role::velocity_prev, Role::velocity_next}, false, false},
+                       Outputs{{}, true, {false, grow}});
     MemorySink sink;
     RunOptions options;
     options.written = options.on_disk = {1};

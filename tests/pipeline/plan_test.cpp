@@ -18,7 +18,8 @@ TEST(Plan, WithoutHistoryVisitsOnlyWhatIsWritten) {
 }
 
 TEST(Plan, HistoryIsBuiltUpFromFramesBefore) {
-  EXPECT_EQ(plan({5}, range(1, 10), true, 2), (std::vector<PlannedFrame>{{3, false, true}, {4, false, false}, {5, true, false}}));
+  EXPECT_EQ(plan({5}, range(1, 10), true, 2),
+            (std::vector<PlannedFrame>{{3, false, true}, {4, false, false}, {5, true, false}}));
 }
 
 TEST(Plan, AllMeansFromTheFirstFrameOnDisk) {
@@ -33,11 +34,9 @@ TEST(Plan, AGapOnDiskEndsTheHistory) {
 }
 
 TEST(Plan, EverySecondFrameStillFiltersThoseBetween) {
-  EXPECT_EQ(plan({1, 3, 5}, range(1, 6), true, 40), (std::vector<PlannedFrame>{{1, true, true},
-                                                                               {2, false, false},
-                                                                               {3, true, false},
-                                                                               {4, false, false},
-                                                                               {5, true, false}}));
+  EXPECT_EQ(plan({1, 3, 5}, range(1, 6), true, 40),
+            (std::vector<PlannedFrame>{
+                {1, true, true}, {2, false, false}, {3, true, false}, {4, false, false}, {5, true, false}}));
 }
 
 TEST(Plan, NegativeFrames) {
