@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "core/filter/surface.h"
+#include "core/motionblur/gather_source.h"
 #include "core/motionblur/scalable_blur_kernel.h"
 #include "core/parallel/rows.h"
 
@@ -51,20 +51,6 @@ int max_radius_px(const ScalableBlurParams& params, int display_height) {
 
 namespace {
 
-/// Depth of the background: finite, so that differences never are infinity minus infinity.
-constexpr float kFarAway_m = 1e30F;
-
-/// One row a tile row and one column a pixel column, so that the kernel loads v_N instead of looking up a tile.
-HalfVelocity widen(const HalfVelocity& tiles, const TileGrid& grid, int width) {
-  HalfVelocity out{Plane(width, grid.rows()), Plane(width, grid.rows())};
-  for (int row = 0; row < grid.rows(); ++row)
-    for (int x = 0; x < width; ++x) {
-      out.x(x, row) = tiles.x(grid.column_of(x), row);
-      out.y(x, row) = tiles.y(grid.column_of(x), row);
-    }
-  return out;
-}
-
 bool is_moving(const HalfVelocity& tiles) {
   for (int row = 0; row < tiles.x.height(); ++row)
     for (int column = 0; column < tiles.x.width(); ++column)
@@ -72,30 +58,7 @@ bool is_moving(const HalfVelocity& tiles) {
   return false;
 }
 
-/// What the gather reads of every pixel: copies, because the result replaces the channels.
-struct Source {
-  Plane speed, depth;
-  std::vector<Plane> colour;
-};
-
-Source source_of(const BlurInput& input, std::span<Plane* const> channels) {
-  const int width = input.window.width(), height = input.window.height();
-  Source source{Plane(width, height), Plane(width, height), {}};
-  for (const Plane* channel : channels) source.colour.push_back(copy_of(*channel));
-  for_rows(height, [&](int y) {
-    const bool flat = input.depth.data == nullptr;
-    for (int x = 0; x < width; ++x) {
-      const bool finite = std::ranges::all_of(channels, [&](const Plane* c) { return std::isfinite((*c)(x, y)); });
-      const float vx = input.velocity->x(x, y), vy = input.velocity->y(x, y);
-      source.speed(x, y) = finite ? std::max(std::sqrt(vx * vx + vy * vy), kLeastRadius_px) : 0.0F;
-      const float z = flat ? 0.0F : input.depth(x, y);
-      source.depth(x, y) = z > 0 && z < kFarAway_m ? z : kFarAway_m;
-    }
-  });
-  return source;
-}
-
-ScalableBlurKernel kernel_of(const ScalableBlurParams& params, const BlurInput& input, const Source& source) {
+ScalableBlurKernel kernel_of(const ScalableBlurParams& params, const BlurInput& input, const GatherSource& source) {
   ScalableBlurKernel kernel{};
   kernel.width = input.window.width();
   kernel.height = input.window.height();
@@ -123,8 +86,8 @@ void scalable_motion_blur(const ScalableBlurParams& params, const BlurInput& inp
   const TileGrid grid(radius, input.window);
   HalfVelocity neighbours = neighbour_max(tile_max(*input.velocity, radius, input.window));
   if (is_moving(neighbours)) {
-    const HalfVelocity wide = widen(neighbours, grid, input.window.width());
-    const Source source = source_of(input, channels);
+    const HalfVelocity wide = widened(neighbours, grid);
+    const GatherSource source = gather_source(*input.velocity, input.depth, channels);
     ScalableBlurKernel kernel = kernel_of(params, input, source);
     constexpr auto group = static_cast<size_t>(ScalableBlurKernel::kChannels);
     for (size_t first = 0; first < channels.size(); first += group) {

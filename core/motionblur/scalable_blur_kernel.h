@@ -1,12 +1,11 @@
 #pragma once
 #include "core/math/sampling.h"
+#include "core/motionblur/gather_source.h"
 #include "core/simd/lanes.h"
 
 /// The gather of Vicarious Visions' motion blur (seed 004), one row.
 namespace aftershade::motionblur {
 
-/// The paper's least radius of a pixel's own blur (algorithms 2.1), and the slides' "Branch on velocity".
-inline constexpr float kLeastRadius_px = 0.5F;
 /// Below it the direction of the centre's velocity says nothing (algorithms 2.4, G3D's threshold).
 inline constexpr float kLeastDirection_px = 1.5F;
 
@@ -15,8 +14,8 @@ struct ScalableBlurKernel {
   static constexpr int kChannels = 4;
   int width, height, stride;
   int origin_x, origin_y;  ///< absolute coordinates of pixel (0, 0): the jitter is tied to them
-  const float* speed;      ///< max(|v|, half a pixel); 0 where the colour is not finite
-  const float* depth;      ///< metres, finite
+  const float* speed;      ///< as GatherSource gives it
+  const float* depth;      ///< likewise
   int channels;            ///< 1 to kChannels
   const float* source[kChannels];
   int taps;  ///< odd
@@ -111,7 +110,8 @@ inline void scalable_blur_row(const ScalableBlurKernel& k, const ScalableBlurRow
     const Vector neighbour{load(row.neighbour_x + x), load(row.neighbour_y + x)};
     const Float length = sqrt(neighbour.x * neighbour.x + neighbour.y * neighbour.y);
     const Float speed = load(k.speed + row_start + x);
-    const Mask moving = (length > kLeastRadius_px) & (speed > 0.0F);
+    const Mask moving =
+        (length > kLeastRadius_px) & (speed > 0.0F);  // slide "Current Gen Implementation": branch on velocity
     if (!any(moving)) continue;
     const Point centre{max(speed, kLeastRadius_px), load(k.depth + row_start + x)};
     const Vector own{load(row.velocity_x + x), load(row.velocity_y + x)};

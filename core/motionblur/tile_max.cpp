@@ -72,4 +72,14 @@ HalfVelocity neighbour_max(const HalfVelocity& tiles) {
   return out;
 }
 
+HalfVelocity widened(const HalfVelocity& tiles, const TileGrid& grid) {
+  HalfVelocity out{Plane(grid.width(), grid.rows()), Plane(grid.width(), grid.rows())};
+  for (int row = 0; row < grid.rows(); ++row)
+    for (int x = 0; x < grid.width(); ++x) {
+      out.x(x, row) = tiles.x(grid.column_of(x), row);
+      out.y(x, row) = tiles.y(grid.column_of(x), row);
+    }
+  return out;
+}
+
 }  // namespace aftershade::motionblur

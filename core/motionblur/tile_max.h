@@ -10,6 +10,7 @@ class TileGrid {
  public:
   TileGrid(int tile, Window window);
   int columns() const { return last_x_ - first_x_ + 1; }
+  int width() const { return window_.width(); }  ///< in pixels
   int rows() const { return last_y_ - first_y_ + 1; }
   int column_of(int x) const;  ///< of a pixel column counted from the window's left
   int row_of(int y) const;     ///< of a pixel row counted from the window's top
@@ -30,5 +31,9 @@ HalfVelocity tile_max(const HalfVelocity& velocity, int tile, Window window);
 /// The velocity of greatest magnitude in the 3x3 tiles around each tile (slide "Neighborhood Maximum Velocity"); of
 /// equal ones the tile's own, then the first in reading order. Tiles outside the grid count for nothing.
 HalfVelocity neighbour_max(const HalfVelocity& tiles);
+
+/// The same with one column a pixel column of the window, one row a tile row: a kernel loads it where it would look up
+/// a tile.
+HalfVelocity widened(const HalfVelocity& tiles, const TileGrid& grid);
 
 }  // namespace aftershade::motionblur
