@@ -1,11 +1,23 @@
 #include "core/filter/bilateral_blur.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/filter/bilateral_blur_kernel.h"
 #include "core/parallel/rows.h"
 
 namespace aftershade::filter {
+
+namespace {
+
+constexpr float kPatternReach = 2;  ///< texels; the least radius, unless less is asked for
+
+float radius_texels(const BilateralBlurParams& params, int display_height) {
+  return std::max(scaled_px(params.radius_px, params.reference_height_px, display_height),
+                  std::min(params.radius_px, kPatternReach));
+}
+
+}  // namespace
 
 const params::Table& BilateralBlurParams::table() {
   using P = BilateralBlurParams;
@@ -15,7 +27,8 @@ const params::Table& BilateralBlurParams::table() {
                "Reach of the blur to each side, in texels of the AO's own grid at the reference height; 0 switches it "
                "off.")
           .add("reference_height_px", &P::reference_height_px, {1, 65536},
-               "Image height at which radius_px is meant; at other heights the radius scales with the height.")
+               "Image height at which radius_px is meant; at other heights it scales with the height, though not below "
+               "2.")
           .add("edge_distance_m", &P::edge_distance_m, {0, 1000},
                "Distance from a pixel's tangent plane at which another pixel's share has fallen to a half.")
           .add("edge_footprints", &P::edge_footprints, {0.1, 100},
@@ -26,7 +39,7 @@ const params::Table& BilateralBlurParams::table() {
 
 Plane bilateral_blur(const BilateralBlurParams& params, ConstPlaneView value, const SampleGrid& grid,
                      const Surface& surface) {
-  const float radius = scaled_px(params.radius_px, params.reference_height_px, surface.display_height);
+  const float radius = radius_texels(params, surface.display_height);
   if (!(radius > 0)) return copy_of(value);
   const int reach = static_cast<int>(std::ceil(radius));
   const float sigma = (radius + 1) / 2;

@@ -212,6 +212,19 @@ TEST(BilateralBlur, RadiusScalesWithTheDisplayHeight) {
             0);
 }
 
+TEST(BilateralBlur, NeverShrinksBelowThePatternItHides) {
+  const Lens lens{80, 80, 16, 16};
+  Picture p = picture(32, 32, lens, slanted_plane(lens));
+  const Plane value = noise(32, 32);
+  const auto blurred = [&](float radius, int height) {
+    p.display_height = height;
+    return filter::bilateral_blur(blur_of(radius, 1080), value, filter::full_grid(p.surface()), p.surface());
+  };
+  EXPECT_EQ(differing_pixels(blurred(4, 135), blurred(2, 1080)), 0);
+  EXPECT_EQ(differing_pixels(blurred(1, 135), blurred(1, 1080)), 0) << "as small as asked for, no smaller";
+  EXPECT_GT(differing_pixels(blurred(1, 2160), blurred(1, 1080)), 0);
+}
+
 TEST(BilateralBlur, IsTheSameToTheBitForAnyUnitOfLengthAndThreads) {
   for (const bool orthographic : {false, true}) {
     const Lens lens{80, 70, 30, 20, orthographic};
