@@ -13,15 +13,16 @@ namespace aftershade::io {
 
 /// The canonical camera from a worldToCamera and a worldToNDC in any producer's convention (conventions 4.4): row or
 /// column vectors, +Z or -Z forward, NDC 0..1 y down, 0..1 y up or -1..1 y up, w positive or negative. Lengths become
-/// metres. With y up, 0..1 and -1..1 are told apart by the principal point: the lens shift must stay below a quarter of
-/// the image. Throws Error(data) naming the attribute when a matrix is singular or the result is no camera. `note`, if
-/// given, receives a warning when focal lengths and pixel aspect disagree by more than 2 %.
+/// metres. With y up, 0..1 and -1..1 are told apart by the principal point: the lens shifts in x and y, as
+/// fractions of the image, must add up to less than a quarter. Throws Error(data) naming the attribute when a matrix is
+/// singular or the result is no camera. `note`, if given, receives a warning when focal lengths and pixel aspect
+/// disagree by more than 2 %.
 Camera normalize_camera(Mat4 world_to_camera, Mat4 world_to_ndc, Window display, float pixel_aspect,
                         double metres_per_unit, std::string* note = nullptr);
 
 /// The camera in a part's header, nullopt when the attributes are not there.
 std::optional<Camera> camera_from_header(const ExrReader& file, int part, const CameraAttributes& names,
-                                         double metres_per_unit);
+                                         double metres_per_unit, std::string* note = nullptr);
 
 /// A camera file (aftershade-camera(5)): per frame the two matrices, or a world matrix with focal length and aperture;
 /// near, far and unit for all:

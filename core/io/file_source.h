@@ -60,6 +60,8 @@ class FileSource final : public FrameSource {
 
   /// Called once per loaded frame that has NaN or Inf in a channel.
   std::function<void(int frame, const NanReport&)> on_nan;
+  /// What the log should say about the input, each text once: a role that cannot be used, a camera that looks wrong.
+  std::function<void(int frame, const std::string&)> on_note;
 
  private:
   struct State;

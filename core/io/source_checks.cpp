@@ -1,0 +1,35 @@
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/io/source_state.h"
+
+namespace aftershade::io {
+
+std::string window_text(Window w) { return cat("(", w.min_x, ", ", w.min_y, ")-(", w.max_x, ", ", w.max_y, ")"); }
+
+namespace {
+
+[[noreturn]] void differs(std::string_view what, std::string_view here, std::string_view there, const FileInfo& first) {
+  throw Error(ErrorCode::data, cat(what, " is ", here, ", but ", there, " in the first file (", first.path, ")"),
+              "a sequence must keep its shape; process the frames before and after the change separately");
+}
+
+}  // namespace
+
+void check_same_shape(const FileInfo& frame, const FileInfo& first) {
+  if (frame.display_window != first.display_window)
+    differs("the displayWindow", window_text(frame.display_window), window_text(first.display_window), first);
+  if (frame.pixel_aspect != first.pixel_aspect)
+    differs("pixelAspectRatio", cat(frame.pixel_aspect), cat(first.pixel_aspect), first);
+}
+
+void check_channel(const FileInfo& frame, const FileInfo& first, const ChannelRef& ref, std::string_view use) {
+  const auto part = static_cast<size_t>(ref.part);
+  if (part < frame.parts.size() && frame.parts[part].find(ref.channel)) return;
+  const std::string where =
+      first.parts.size() > 1 ? cat(" in part ", ref.part, " (\"", first.parts[part].name, "\")") : "";
+  throw Error(ErrorCode::data,
+              cat("channel ", ref.channel, where, " (", use, ") is missing; the first file (", first.path, ") has it"),
+              "render the frame again, or leave it out with --frames");
+}
+
+}  // namespace aftershade::io

@@ -1,0 +1,67 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/io/file_source.h"
+
+namespace aftershade::io {
+
+/// A layer that will be loaded, and for which effects.
+struct LayerChoice {
+  ColorBinding binding;
+  bool ao = false, blur = false;
+};
+
+/// What one view of the sequence offers.
+struct ViewState {
+  std::vector<RoleBinding> roles;
+  std::vector<ColorBinding> colors;
+  std::vector<LayerChoice> layers;
+  RoleSet available;
+};
+
+/// The first frames, and what was found in them; constant once made.
+struct Resolved {
+  FileInfo first;
+  std::vector<FileInfo> siblings;
+  std::map<std::string, ViewState> views;
+  bool header_camera = false;
+};
+Resolved resolve(const SourceOptions& options);
+
+/// The camera of a frame: header, camera file or field of view. `note` receives a warning.
+std::optional<Camera> find_camera(const ExrReader& file, const SourceOptions& options, int number,
+                                  const std::string& view, std::string* note);
+/// Has a part of the view usable camera attributes?
+bool has_header_camera(const ExrReader& file, const SourceOptions& options, const std::string& view);
+
+/// Error(data) with both values when a frame does not fit the first one.
+void check_same_shape(const FileInfo& frame, const FileInfo& first);
+void check_channel(const FileInfo& frame, const FileInfo& first, const ChannelRef& ref, std::string_view use);
+
+std::string window_text(Window window);  ///< "(0, 0)-(1919, 1079)"
+
+/// Channels to decode into planes that all cover one window.
+class PlaneReader {
+ public:
+  void add(const ExrReader& file, const ChannelRef& ref, Plane& target, bool infinity_is_meant);
+  /// Union of the data windows of the parts that are read.
+  Window data_window() const;
+  /// Each part is decoded once. Counts pixels of the data windows that are no numbers.
+  NanReport read(Window window, bool nan_is_error) const;
+
+ private:
+  struct Job {
+    const ExrReader* file;
+    ChannelRef ref;
+    Plane* target;
+    bool infinity_is_meant;
+  };
+  std::vector<Job> jobs_;
+};
+
+}  // namespace aftershade::io
