@@ -57,7 +57,7 @@ struct CameraPath {
 /// Sun (a direction) and sky (ambient light that knows no occlusion: what a compositor's AO is applied to).
 struct Light {
   Vec3 to_sun{0.5, 0.7, 0.5};                                ///< made unit where used
-  Vec3 sun{2.4, 2.2, 1.9};                                   ///< irradiance across the sun's direction / pi
+  Vec3 sun{1.35, 1.24, 1.05};                                ///< irradiance across the sun's direction / pi
   Vec3 zenith{0.36, 0.48, 0.70}, horizon{0.62, 0.64, 0.66};  ///< sky radiance
   Vec3 ground{0.22, 0.19, 0.15};                             ///< radiance from below
 

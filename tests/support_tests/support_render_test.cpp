@@ -131,27 +131,24 @@ TEST(Velocity, OfTheBackgroundIsTheCamerasRotation) {
 }
 
 TEST(TrailScene, FloorPointsLieWithinTheStableDistance) {
-  const Frame frame = render(find_scene("trail"), 3, kSmall, {Role::depth, Role::normal}, false);
-  const auto point = [&](int x, int y) {
-    return frame.camera->unproject(x + 0.5, y + 0.5, double{frame.depth()(x, y)});
-  };
-  const auto same = [&](int x, int y, int x2, int y2) {
-    return std::abs(frame.planes(Role::normal)[1](x, y) - frame.planes(Role::normal)[1](x2, y2)) < 1e-6F &&
-           std::abs(frame.planes(Role::normal)[0](x, y)) < 1e-6F &&
-           std::abs(frame.planes(Role::normal)[0](x2, y2)) < 1e-6F;
+  const Scene& scene = find_scene("trail");
+  const PlacedScene placed(scene, 3);
+  const RayFan rays(camera_at(scene, 3, 240, 135));
+  ASSERT_TRUE(std::holds_alternative<Ground>(scene.objects[0].shape));
+  const auto floor_point = [&](int x, int y) {
+    const auto hit = placed.trace(rays(x + 0.5, y + 0.5));
+    return hit && hit->object == 0 ? std::optional(hit->position) : std::nullopt;
   };
   int checked = 0;
   double widest = 0;
-  const Plane& up = frame.planes(Role::normal)[1];
-  const float floor_up = up(2, 2);
   for (int y = 0; y < 134; ++y)
     for (int x = 0; x < 239; ++x) {
-      if (up(x, y) != floor_up || !same(x, y, x + 1, y) || !same(x, y, x, y + 1)) continue;
-      if (std::abs(frame.depth()(x, y) - frame.depth()(x + 1, y)) > 0.3F) continue;  // top of the box against the floor
+      const auto here = floor_point(x, y), right = floor_point(x + 1, y), below = floor_point(x, y + 1);
+      if (!here || !right || !below) continue;
       ++checked;
-      widest = std::max({widest, (point(x, y) - point(x + 1, y)).length(), (point(x, y) - point(x, y + 1)).length()});
+      widest = std::max({widest, (*here - *right).length(), (*here - *below).length()});
     }
-  EXPECT_GT(checked, 15000);
+  EXPECT_GT(checked, 20000);
   EXPECT_LT(widest, 0.1);
 }
 
