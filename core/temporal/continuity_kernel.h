@@ -1,65 +1,47 @@
 #pragma once
 #include <limits>
 
-#include "core/camera/camera.h"
-#include "core/simd/lanes.h"
+#include "core/filter/lane_geometry.h"
 
 namespace aftershade::temporal {
 using namespace lanes;
 
-/// One row of the AO's grid: depth in metres and the window index of the pixel each texel was picked from.
-struct TexelRow {
-  const float* depth;
-  const float *pixel_x, *pixel_y;  ///< null on a full grid: texel (x, y) is pixel (x, y)
-  int y;
+struct ContinuityParams {
+  filter::GridSamples texels;
+  filter::Lens lens;
+  filter::EdgeTolerance limit;  ///< L
 };
 
-struct ContinuityRow {
-  TexelRow here, above, below;  ///< at the border the side that exists stands for both
-  int width;
-  Projection projection;
-  float distance_m;     ///< L is at least this ...
-  float footprints_px;  ///< ... and this many pixels at the texel's depth
-  float* mask;
-};
-
-struct TexelPoint {
-  Float x, y, z;
-};
-
-inline Mask is_surface(Float depth) { return is_finite(depth) & (depth > 0.0F); }
-
-/// The camera-space point (y down: only distances matter) of the picked pixel's centre.
-inline TexelPoint texel_point(const TexelRow& row, Int index, const Projection& lens) {
-  const Float z = gather(row.depth, index);
-  const Float px = row.pixel_x != nullptr ? gather(row.pixel_x, index) : to_float(index);
-  const Float py = row.pixel_y != nullptr ? gather(row.pixel_y, index) : to_float(Int(row.y));
-  const Float scale = lens.orthographic ? Float(1.0F) : z;
-  return {(px + 0.5F - lens.cx) / lens.fx * scale, (py + 0.5F - lens.cy) / lens.fy * scale, z};
+/// From texel to texel; infinite where the other is no surface.
+inline Float texel_distance(const ContinuityParams& params, const filter::Point& p, Int x, Int y) {
+  const filter::Point q = params.texels.point(params.lens, x, y), v = q - p;
+  return select(filter::is_surface(q.z), sqrt(filter::dot(v, v)), std::numeric_limits<float>::infinity());
 }
 
-inline Float distance(const TexelPoint& p, const TexelPoint& q) {
-  const Float dx = q.x - p.x, dy = q.y - p.y, dz = q.z - p.z;
-  return select(is_surface(q.z), sqrt(dx * dx + dy * dy + dz * dz), std::numeric_limits<float>::infinity());
+/// The distance to the nearer of two neighbours at offsets -step and +step. At the border the side that exists stands
+/// for both; where neither does, the texel itself: nothing there is discontinuous.
+inline Float nearer_neighbour(const ContinuityParams& params, const filter::Point& p, Int x, Int y, int step_x,
+                              int step_y) {
+  const filter::Samples& inside = params.texels.depth;
+  const auto distance = [&](Int dx, Int dy) {
+    const Mask exists = inside.contains(x + dx, y + dy);
+    const Int to_x = select(exists, x + dx, x - dx), to_y = select(exists, y + dy, y - dy);
+    return texel_distance(params, p, inside.clamp_x(to_x), inside.clamp_y(to_y));
+  };
+  return min(distance(-step_x, -step_y), distance(step_x, step_y));
 }
 
 /// continuityMask = |P_x - P| < L && |P_y - P| < L, P_x and P_y the nearer of two neighbours (seed 000, "Piecewise
 /// Continuity Test", "Two Half-Res Passes"). L grows with the pixel's footprint: algorithms 14, item 7.
-inline void continuity_row(const ContinuityRow& row) {
-  for (int x = 0; x < row.width; x += kLanes) {
-    const Int last(row.width - 1), here = min(iota(x), last);
-    const Int left = min(select(here < Int(1), Int(1), here - Int(1)), last);
-    const Int right = select(here < last, here + Int(1), max(last - Int(1), Int(0)));
-    const TexelPoint p = texel_point(row.here, here, row.projection);
-    const auto to = [&](const TexelRow& side, Int index) {
-      return distance(p, texel_point(side, index, row.projection));
-    };
-    const Float along_x = min(to(row.here, left), to(row.here, right));
-    const Float along_y = min(to(row.above, here), to(row.below, here));
-    const Float footprint = (row.projection.orthographic ? Float(1.0F) : p.z) / row.projection.fx;
-    const Float limit = max(row.distance_m, footprint * row.footprints_px);
-    const Mask continuous = is_surface(p.z) & (along_x < limit) & (along_y < limit);
-    store(row.mask + x, select(continuous, Float(1.0F), Float(0.0F)));
+inline void continuity_row(const ContinuityParams& params, int y, float* mask) {
+  const filter::Samples& depth = params.texels.depth;
+  for (int i = 0; i < depth.width; i += kLanes) {
+    const Int x = depth.clamp_x(iota(i));
+    const filter::Point p = params.texels.point(params.lens, x, y);
+    const Float limit = params.limit.at(p.z);
+    const Mask continuous = filter::is_surface(p.z) & (nearer_neighbour(params, p, x, y, 1, 0) < limit) &
+                            (nearer_neighbour(params, p, x, y, 0, 1) < limit);
+    store(mask + i, select(continuous, Float(1.0F), Float(0.0F)));
   }
 }
 

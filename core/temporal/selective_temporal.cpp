@@ -13,11 +13,6 @@ namespace aftershade::temporal {
 
 namespace {
 
-TexelRow texel_row(const filter::SampleGrid& grid, int y) {
-  const bool full = grid.pixel_x.empty();
-  return {grid.depth.row(y), full ? nullptr : grid.pixel_x.row(y), full ? nullptr : grid.pixel_y.row(y), y};
-}
-
 /// Seed 000, "History Buffers": (AO, Z) = (1, 0), N = 0.
 TemporalHistory cleared_history() { return {{0, 0, 0, 0}, Plane(1, 1, 1.0F), Plane(1, 1), Plane(1, 1)}; }
 
@@ -58,14 +53,11 @@ const params::Table& SelectiveTemporalParams::table() {
 
 Plane continuity_mask(const SelectiveTemporalParams& params, const filter::SampleGrid& grid,
                       const filter::Surface& surface) {
-  const int height = grid.height();
-  Plane mask(grid.width(), height);
-  for_rows(height, [&](int y) {
-    const int above = y > 0 ? y - 1 : std::min(1, height - 1), below = y + 1 < height ? y + 1 : std::max(height - 2, 0);
-    continuity_row({texel_row(grid, y), texel_row(grid, above), texel_row(grid, below), grid.width(),
-                    surface.projection, params.distance_m, params.distance_footprints * static_cast<float>(grid.step),
-                    mask.row(y)});
-  });
+  const ContinuityParams kernel{
+      filter::GridSamples(grid), filter::Lens(surface.projection),
+      filter::EdgeTolerance(params.distance_m, params.distance_footprints, grid.step, surface.projection)};
+  Plane mask(grid.width(), grid.height());
+  for_rows(mask.height(), [&](int y) { continuity_row(kernel, y, mask.row(y)); });
   return mask;
 }
 

@@ -27,7 +27,7 @@ int reference_continuity(const SelectiveTemporalParams& params, const filter::Sa
     return Vec3((px + 0.5 - lens.cx) / lens.fx * scale, (py + 0.5 - lens.cy) / lens.fy * scale, depth(i, j));
   };
   if (!is_surface(x, y)) return 0;
-  const double footprint = (lens.orthographic ? 1 : depth(x, y)) / lens.fx * grid.step;
+  const double footprint = (lens.orthographic ? 1 : depth(x, y)) / std::fmin(lens.fx, lens.fy) * grid.step;
   const double limit = std::fmax(params.distance_m, params.distance_footprints * footprint);
   bool close = true, unsure = false;
   for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(0, 1)}) {
@@ -136,8 +136,8 @@ TEST(Continuity, BackgroundIsUnstableAndOneLineImagesWork) {
   const Plane mask = continuity_mask({}, hand_grid(depth), surface_of(depth, kLens));
   const float want[] = {0, 0, 1, 1, 0};  // pixel 0 has only background beside it
   for (int x = 0; x < 5; ++x) EXPECT_EQ(mask(x, 0), want[x]) << x;
-  const Plane at_eye = plane_of(3, 1, [](int x, int) { return x == 1 ? 0.0F : 0.05F; });
-  EXPECT_EQ(continuity_mask({}, hand_grid(at_eye), surface_of(at_eye, kLens))(1, 0), 0.0F) << "depth 0 is no surface";
+  const Plane at_eye = plane_of(3, 3, [](int x, int y) { return x == 1 && y == 1 ? 0.0F : 0.05F; });
+  EXPECT_EQ(continuity_mask({}, hand_grid(at_eye), surface_of(at_eye, kLens))(1, 1), 0.0F) << "depth 0 is no surface";
   const Plane single(1, 1, 3.0F);
   EXPECT_EQ(continuity_mask({}, hand_grid(single), surface_of(single, kLens))(0, 0), 1.0F);
 }
@@ -173,6 +173,28 @@ TEST(Dilation, FourByFourLooksFromMinusTwoToPlusOne) {
   for (int y = 0; y < 9; ++y)
     for (int x = 0; x < 9; ++x)
       EXPECT_EQ(got(x, y), x >= 3 && x <= 6 && y >= 3 && y <= 6 ? 0.0F : 1.0F) << x << " " << y;
+}
+
+TEST(Continuity, ASlantedFloorIsStableOnTheLibrarysHalfGrid) {
+  // 1 m under the eye, 12 to 40 degrees of slant, picked nearest and farthest in turn; blades stand at columns 28
+  // to 35.
+  const auto blade = [](int x) { return x >= 28 && x < 36 && x % 4 == 0; };
+  const Plane depth =
+      plane_of(64, 48, [&](int x, int y) { return blade(x) ? 0.5F : 60 / (28.5F + static_cast<float>(y)); });
+  for (const int origin : {0, 1}) {
+    filter::Surface surface = surface_of(depth, {60, 60, 32, -28, false});
+    surface.origin_x = surface.origin_y = origin;
+    const filter::SampleGrid grid = filter::half_grid(surface);
+    const Plane mask = mask_at_pixels(dilate_discontinuities(continuity_mask({}, grid, surface), 4), grid, surface);
+    int stable_blades = 0, unstable_floor = 0;
+    for (int y = 0; y < 48; ++y)
+      for (int x = 0; x < 64; ++x) {
+        stable_blades += blade(x) && mask(x, y) == 1 ? 1 : 0;
+        unstable_floor += (x < 22 || x >= 42) && y >= 8 && mask(x, y) == 0 ? 1 : 0;
+      }
+    EXPECT_EQ(unstable_floor, 0) << origin;
+    EXPECT_EQ(stable_blades, 0) << origin;
+  }
 }
 
 TEST(MaskAtPixels, EveryPixelTakesItsParentTexel) {
