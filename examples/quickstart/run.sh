@@ -4,7 +4,7 @@
 set -eu
 cd "$(dirname "$0")/../.."
 
-tests/setup.sh
+tests/setup.sh aftershade make_scene
 
 bin=build/bin
 out=out/quickstart
