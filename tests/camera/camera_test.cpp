@@ -29,7 +29,7 @@ void expect_near(const Vec3& a, const Vec3& b, double tolerance) {
 }
 
 TEST(Camera, ImageIsRightAndDown) {
-  const Camera camera = camera_at({}, 0);
+  const Camera camera = camera_at({0, 0, 0}, 0);
   expect_near(camera.project({0, 0, 5}), {470, 260, 5}, 1e-12);
   EXPECT_GT(camera.project({1, 0, 5}).x, 470);
   EXPECT_LT(camera.project({0, 1, 5}).y, 260);
@@ -41,7 +41,7 @@ TEST(Camera, UnprojectUndoesProject) {
   std::uniform_real_distribution<double> unit(-1, 1);
   for (const bool orthographic : {false, true})
     for (int i = 0; i < 200; ++i) {
-      const Camera camera = camera_at({}, 0, orthographic);
+      const Camera camera = camera_at({0, 0, 0}, 0, orthographic);
       const Vec3 point(10 * unit(random), 10 * unit(random), 10.5 + 10 * unit(random));
       const Vec3 image = camera.project(point);
       EXPECT_DOUBLE_EQ(image.z, point.z);
@@ -50,12 +50,12 @@ TEST(Camera, UnprojectUndoesProject) {
 }
 
 TEST(Camera, PointsBehindHaveNoImage) {
-  const Camera camera = camera_at({}, 0);
+  const Camera camera = camera_at({0, 0, 0}, 0);
   for (const double z : {0.0, -1.0, std::nan("")}) {
     EXPECT_TRUE(std::isnan(camera.project({1, 1, z}).x)) << z;
     EXPECT_TRUE(std::isnan(camera.project({1, 1, z}).y)) << z;
   }
-  EXPECT_FALSE(std::isnan(camera_at({}, 0, true).project({1, 1, -1}).x)) << "an orthographic camera sees behind itself";
+  EXPECT_FALSE(std::isnan(camera_at({0, 0, 0}, 0, true).project({1, 1, -1}).x)) << "an orthographic camera sees behind itself";
 }
 
 TEST(CameraFromFov, SpansTheDisplayWindow) {
@@ -97,7 +97,7 @@ TEST(CameraReprojection, DeltaIsExactFarFromTheOrigin) {
 }
 
 TEST(CameraReprojection, KnownMoves) {
-  const Camera still = camera_at({}, 0);
+  const Camera still = camera_at({0, 0, 0}, 0);
   const auto same = CameraReprojection::create(still, still);
   expect_near((*same)(12.5, 34.5, 7), {12.5, 34.5, 7}, 1e-9);
   const auto dolly = CameraReprojection::create(camera_at({0, 0, 1}, 0), still);  // one metre forward since
@@ -109,7 +109,7 @@ TEST(CameraReprojection, KnownMoves) {
 }
 
 TEST(CameraReprojection, NeedsTwoGoodPositions) {
-  const Camera placed = camera_at({}, 0), lens_only = camera_from_fov(60, 1, 0, 0, 10, 10);
+  const Camera placed = camera_at({0, 0, 0}, 0), lens_only = camera_from_fov(60, 1, 0, 0, 10, 10);
   EXPECT_FALSE(CameraReprojection::create(lens_only, placed));
   EXPECT_FALSE(CameraReprojection::create(placed, lens_only));
   Camera singular = placed;
@@ -118,7 +118,7 @@ TEST(CameraReprojection, NeedsTwoGoodPositions) {
 }
 
 TEST(LocalProjection, IsTheLensInIndexSpace) {
-  const Camera camera = camera_at({}, 0);
+  const Camera camera = camera_at({0, 0, 0}, 0);
   const Projection local = local_projection(camera, -10, 20);
   EXPECT_EQ(local.fx, 900);
   EXPECT_EQ(local.fy, 950);
