@@ -112,8 +112,8 @@ inline void scalable_ao_row(const ScalableAoRow& row, int y) {
       const Float dir_x = tap.x * rotation.cos - tap.y * rotation.sin,
                   dir_y = tap.x * rotation.sin + tap.y * rotation.cos;
       // r_i = max(0.75 px, alpha_i r'), mip_i = clamp(floor(log2(r_i)) - 3, 0, 5): algorithms 4.2.
-      const Int tx = px + to_int(round(dir_x * max(tap.radius * radius.x_px, kMinTapPx)));
-      const Int ty = py + to_int(round(dir_y * max(tap.radius * radius.y_px, kMinTapPx)));
+      const Int tx = px + to_int(round_small(dir_x * max(tap.radius * radius.x_px, kMinTapPx)));
+      const Int ty = py + to_int(round_small(dir_y * max(tap.radius * radius.y_px, kMinTapPx)));
       const Int level =
           clamp(floor_log2(max(tap.radius * longest, kMinTapPx)) - Int(kLogMaxOffset), 0, row.depth.count - 1);
       const Mask in_frame = image.contains(tx, ty);

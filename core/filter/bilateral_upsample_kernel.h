@@ -15,7 +15,7 @@ struct BilateralUpsampleRow {
 
 /// A tent of half-width 3 px: picked pixels are at most 3 px apart, and it is 0 beyond the 3x3 blocks around the
 /// pixel's.
-inline Float tent(Float distance_px) { return max(0.0F, 1.0F - abs(distance_px) / 3.0F); }
+inline Float tent(Float distance_px) { return max(0.0F, 1.0F - abs(distance_px) * (1.0F / 3.0F)); }
 
 /// Running sums over the texels; differences from `base`, so that a constant stays the same to the bit.
 struct UpsampleSum {

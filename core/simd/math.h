@@ -5,11 +5,14 @@
 /// plain multiplies and adds, with domain and largest error stated; tests/simd measures them.
 namespace aftershade::lanes {
 
+/// Nearest integer, ties to even, for |x| < 2^22: adding 1.5 * 2^23 leaves no bits for a fraction.
+inline Float round_small(Float x) { return (x + 12582912.0F) - 12582912.0F; }
+
 /// 2^x for x in [-126, 126]; below -126 the result is 0. Relative error below 2.5e-7.
 /// x = n + f, f in [-0.5, 0.5]; 2^f by the Taylor series of exp(f ln 2) to the sixth power.
 inline Float exp2(Float x) {
   const Float clamped = clamp(x, -126.0F, 126.0F);
-  const Float n = round(clamped);
+  const Float n = round_small(clamped);
   const Float f = clamped - n;
   Float p = 1.5403530e-4F;    // (ln 2)^6 / 6!
   p = p * f + 1.3333558e-3F;  // (ln 2)^5 / 5!

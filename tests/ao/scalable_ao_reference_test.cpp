@@ -133,12 +133,13 @@ double corner_integral(double distance) {
   const Vec3 n = Vec3(0, 1, -1).normalized();
   constexpr int kRadii = 1000, kAngles = 720;
   double sum = 0;
-  for (int i = 0; i < kRadii; ++i)
-    for (int k = 0; k < kAngles; ++k) {
-      const double r = (i + 0.5) / kRadii, angle = 2 * std::numbers::pi * (k + 0.5) / kAngles;
-      const double tap_h = h + r * std::sin(angle);
-      sum += falloff({r * std::cos(angle), tap_h - h, std::abs(h) - std::abs(tap_h)}, n, 1, 0);
+  for (int k = 0; k < kAngles; ++k) {
+    const double angle = 2 * std::numbers::pi * (k + 0.5) / kAngles, x = std::cos(angle), y = std::sin(angle);
+    for (int i = 0; i < kRadii; ++i) {
+      const double r = (i + 0.5) / kRadii, tap_h = h + r * y;
+      sum += falloff({r * x, r * y, std::abs(h) - std::abs(tap_h)}, n, 1, 0);
     }
+  }
   return std::pow(2 * sum / kRadii / kAngles, 2);
 }
 

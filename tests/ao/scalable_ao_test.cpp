@@ -183,6 +183,39 @@ TEST(ScalableAo, IsTheSameToTheBitWhenTheWindowMoves) {
   }
 }
 
+TEST(ScalableAo, OfAMirroredPictureIsMirroredOnAverageOverTheRotations) {
+  const Lens lens{150, 150, 80, 60};
+  const View view = room(lens);
+  const Picture p = picture(160, 120, lens, view);
+  const Picture q = picture(160, 120, lens, [&](double x, double y) {
+    Hit hit = view(160 - x, y);
+    hit.normal.x = -hit.normal.x;
+    return hit;
+  });
+  ScalableAoParams params;
+  params.resolution = Resolution::full;
+  params.taps = 64;
+  params.depth_mips = false;
+  params.per_frame_noise = true;
+  const auto mean = [&](const Picture& picture) {
+    Plane sum(160, 120);
+    for (int frame = 0; frame < 8; ++frame) {
+      const Plane one = occlude(params, picture, frame);
+      for (int y = 0; y < 120; ++y)
+        for (int x = 0; x < 160; ++x) sum(x, y) += one(x, y) / 8;
+    }
+    return sum;
+  };
+  const Plane a = mean(p), b = mean(q);
+  double squares = 0;
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 160; ++x) {
+      squares += std::pow(a(x, y) - b(159 - x, y), 2);
+      ASSERT_NEAR(a(x, y), b(159 - x, y), 0.04) << x << ' ' << y;
+    }
+  EXPECT_LT(std::sqrt(squares / (160 * 120)), 0.003);
+}
+
 TEST(ScalableAo, DependsOnTheFrameOnlyWhenAskedTo) {
   const Lens lens{150, 150, 80, 60};
   const Picture p = picture(160, 120, lens, room(lens));

@@ -23,6 +23,59 @@ Plane on_grid(const filter::SampleGrid& grid, Value value) {
   return out;
 }
 
+/// Written from the header: tent and plane distance over the 3x3 blocks around the pixel's.
+double twin(const BilateralUpsampleParams& params, const Plane& value, const filter::SampleGrid& grid, const Picture& p,
+            const Lens& lens, int x, int y) {
+  const auto point = [&](int px, int py) {
+    return lens.point(p.origin_x + px + 0.5, p.origin_y + py + 0.5, p.depth(px, py));
+  };
+  const Vec3 centre = point(x, y), n(p.normals[0](x, y), p.normals[1](x, y), p.normals[2](x, y));
+  const double footprint = 2 * (lens.orthographic ? 1.0 : centre.z) / std::min(lens.fx, lens.fy);
+  const double tolerance = std::max<double>(params.edge_distance_m, params.edge_footprints * footprint);
+  const int bx = (x - grid.origin_x) / 2, by = (y - grid.origin_y) / 2;
+  double sum = 0, weights = 0, nearest = kInf, fallback = 1;
+  for (int ty = std::max(0, by - 1); ty <= std::min(grid.height() - 1, by + 1); ++ty)
+    for (int tx = std::max(0, bx - 1); tx <= std::min(grid.width() - 1, bx + 1); ++tx) {
+      if (!std::isfinite(grid.depth(tx, ty))) continue;
+      const int px = static_cast<int>(grid.pixel_x(tx, ty)), py = static_cast<int>(grid.pixel_y(tx, ty));
+      const double d = (point(px, py) - centre).dot(n) / tolerance;
+      const double w =
+          std::max(0.0, 1 - std::abs(px - x) / 3.0) * std::max(0.0, 1 - std::abs(py - y) / 3.0) * std::exp2(-d * d);
+      sum += w * value(tx, ty);
+      weights += w;
+      const double gap = std::abs(static_cast<double>(p.depth(px, py)) - centre.z);
+      if (gap < nearest) fallback = value(tx, ty);
+      nearest = std::min(nearest, gap);
+    }
+  return weights < 1e-3 ? fallback : sum / weights;
+}
+
+TEST(BilateralUpsample, AgreesWithTheTwin) {
+  for (const bool orthographic : {false, true})
+    for (const float distance : {0.05F, 0.4F}) {  // less, and more, than two footprints
+      const Lens lens{80, 60, 30, 20, orthographic};
+      const Picture p = picture(
+          63, 41, lens,
+          [&](double x, double y) {
+            if (x > 40 && y > 30) return Hit{};
+            Hit hit = meet_plane(lens, x, y, {0.3, 0.5, -0.8}, -3);
+            if (std::fmod(x + 2 * y, 7) < 2) hit.z -= 0.9;  // thin things in front
+            return hit;
+          },
+          -3, 5);
+      const filter::SampleGrid grid = filter::half_grid(p.surface());
+      const Plane value = on_grid(grid, [](double x, double y) { return 0.5 + 0.5 * std::sin(x * 1.3 + y * y); });
+      BilateralUpsampleParams params;
+      params.edge_distance_m = distance;
+      const Plane fast = filter::bilateral_upsample(params, value, grid, p.surface());
+      for (int y = 0; y < 41; ++y)
+        for (int x = 0; x < 63; ++x) {
+          const double exact = std::isfinite(p.depth(x, y)) ? twin(params, value, grid, p, lens, x, y) : 1;
+          ASSERT_NEAR(fast(x, y), exact, 1e-4) << x << ' ' << y << ' ' << orthographic;
+        }
+    }
+}
+
 double ramp(double x, double y) { return 0.2 + 0.004 * x + 0.006 * y; }
 
 TEST(BilateralUpsample, ReconstructsARampOnAPlane) {

@@ -73,6 +73,14 @@ TEST(SimdMath, SincosTurnsIsExactAtQuarterTurns) {
   }
 }
 
+TEST(SimdMath, RoundSmallIsRound) {
+  for (int i = -4'000'000; i <= 4'000'000; ++i) {
+    const float x = static_cast<float>(i) * 1.04F, tie = static_cast<float>(i) * 0.5F;
+    ASSERT_EQ(lane0(lanes::round_small(x)), lane0(lanes::round(x))) << x;
+    ASSERT_EQ(lane0(lanes::round_small(tie)), lane0(lanes::round(tie))) << tie;
+  }
+}
+
 TEST(SimdMath, FloorLog2IsTheExponent) {
   const auto of = [](float x) { return lane0(lanes::to_float(lanes::floor_log2(x))); };
   for (int n = -126; n <= 127; ++n) {
