@@ -104,7 +104,7 @@ Frame FileSource::State::empty_frame(const ExrReader& file, int number, const st
   std::string note;
   frame.camera = find_camera(file, options, number, view_name, &note);
   if (!note.empty()) notes.push_back(std::move(note));
-  if (resolved.header_camera && !frame.camera)
+  if (view(view_name).header_camera && !(frame.camera && frame.camera->world_to_camera))
     throw Error(ErrorCode::data,
                 cat("the camera matrices are missing; the first file (", resolved.first.path, ") has them"),
                 "render the frame again, or give --camera FILE");

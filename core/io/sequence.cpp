@@ -114,7 +114,10 @@ FrameNumbers Sequence::holes() const {
     step = std::min(step, int64_t{entries_[i].frame} - entries_[i - 1].frame);
   FrameNumbers out;
   for (size_t i = 1; i < entries_.size(); ++i)
-    for (int64_t f = entries_[i - 1].frame + step; f < entries_[i].frame; f += step) out.push_back(static_cast<int>(f));
+    for (int64_t f = entries_[i - 1].frame + step; f < entries_[i].frame; f += step) {
+      if (static_cast<int64_t>(out.size()) == kMaxFrames) return out;
+      out.push_back(static_cast<int>(f));
+    }
   return out;
 }
 

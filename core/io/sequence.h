@@ -51,7 +51,8 @@ class Sequence {
   bool empty() const { return entries_.empty(); }
   const std::string* path(int frame) const;  ///< nullptr when there is no such frame
   FrameNumbers frames() const;
-  FrameNumbers holes() const;  ///< numbers between first and last that are missing, in steps of the smallest distance
+  /// Numbers between first and last that are missing, in steps of the smallest distance; the first 10 million of them.
+  FrameNumbers holes() const;
 
  private:
   std::vector<Entry> entries_;

@@ -161,7 +161,7 @@ Resolved resolve(const SourceOptions& options) {
     state.colors = resolve_colors(out.first, view, options.profile, options.channel_overrides, cryptomattes);
     state.layers = choose_layers(out.first, view, state.colors, options, cryptomattes);
     const auto camera = find_camera(file, options, number, view, nullptr);
-    out.header_camera = out.header_camera || has_header_camera(file, options, view);
+    state.header_camera = has_header_camera(file, options, view);
     for (const RoleBinding& binding : state.roles) {
       const bool needs_position = binding.role == Role::normal && binding.encoding.normal_space == NormalSpace::world;
       if (!needs_position || (camera && camera->world_to_camera)) state.available.insert(binding.role);

@@ -22,6 +22,7 @@ struct ViewState {
   std::vector<ColorBinding> colors;
   std::vector<LayerChoice> layers;
   RoleSet available;
+  bool header_camera = false;
 };
 
 /// The first frames, and what was found in them; constant once made.
@@ -29,7 +30,6 @@ struct Resolved {
   FileInfo first;
   std::vector<FileInfo> siblings;
   std::map<std::string, ViewState> views;
-  bool header_camera = false;
 };
 Resolved resolve(const SourceOptions& options);
 
