@@ -40,8 +40,8 @@ Resolved load_preset(const std::string& name_or_file, const std::vector<std::str
 
 /// Every parameter of every stage, nothing inherited: complete in itself. The name is not part of it.
 params::Json to_json(const Preset& preset);
-/// A preset file's content; `where` names the file in messages, is what "extends" is relative to, and gives the name (without
-/// folder and .json). from_json(to_json(p), p.name) == p. Throws as load_preset.
+/// A preset file's content; `where` names the file in messages, is what "extends" is relative to, and gives the name
+/// (without folder and .json). from_json(to_json(p), p.name) == p. Throws as load_preset.
 Preset from_json(const params::Json& json, std::string_view where);
 
 /// Lines "ao.radius_m: 1 -> 1.5" of all that differs, in stage order; also stages that only one has.
