@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 
@@ -24,6 +25,24 @@ void Log::warning(std::string_view text) {
 void Log::note(std::string_view text) {
   if (level_ != Level::errors && first_time(text)) print("aftershade: ", text);
 }
+
+bool Log::first_time(std::string_view text) {
+  if (verbose()) return true;
+  std::string key(text);
+  std::erase_if(key, [](unsigned char c) { return std::isdigit(c) != 0; });
+  const auto [entry, inserted] = said_.try_emplace(key, Repeated{std::string(text)});
+  if (!inserted) ++entry->second.more;
+  return inserted;
+}
+
+void Log::summarise() {
+  for (auto& [key, repeated] : said_)
+    if (repeated.more > 0 && level_ != Level::errors)
+      print("aftershade: ", cat(repeated.more, " more like \"", repeated.first, "\"; -v shows all"));
+  said_.clear();
+}
+
+void Log::line(std::string_view text) { print("aftershade: ", text); }
 
 void Log::detail(std::string_view text) {
   if (verbose()) print("aftershade: ", text);
@@ -59,7 +78,7 @@ void ProgressPrinter::update(int frame, size_t done, size_t total, double millis
   const double seconds_left =
       done ? total_ms_ / 1000 / static_cast<double>(done) * static_cast<double>(total - done) : 0;
   if (kind_ == Kind::plain) {
-    log().note(cat("frame ", frame, " done, ", done, " of ", total, ", ", fixed(milliseconds, 0), " ms"));
+    log().line(cat("frame ", frame, " done, ", done, " of ", total, ", ", fixed(milliseconds, 0), " ms"));
   } else if (kind_ == Kind::bar) {
     constexpr size_t width = 30;
     const size_t filled = total ? width * done / total : width;

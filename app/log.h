@@ -1,12 +1,12 @@
 #pragma once
-#include <set>
+#include <map>
 #include <string>
 #include <string_view>
 
 namespace aftershade::app {
 
-/// Messages to stderr; data goes to stdout. A note or warning that repeats from frame to frame is printed once, unless
-/// verbose.
+/// Messages to stderr; data goes to stdout. Of notes and warnings that differ in their numbers only, the first is
+/// printed (all of them when verbose), and summarise() says how many followed.
 class Log {
  public:
   enum class Level { errors, normal, verbose };
@@ -16,7 +16,11 @@ class Log {
   void error(std::string_view text);
   void warning(std::string_view text);
   void note(std::string_view text);
+  void line(std::string_view text);    ///< always, however often
   void detail(std::string_view text);  ///< only with -v
+
+  /// Says how many messages were held back since the last call.
+  void summarise();
 
   /// A line that the next call overwrites; only for terminals.
   void status_line(std::string_view text);
@@ -24,9 +28,13 @@ class Log {
 
  private:
   void print(std::string_view prefix, std::string_view text);
-  bool first_time(std::string_view text) { return verbose() || said_.insert(std::string(text)).second; }
+  bool first_time(std::string_view text);
   Level level_ = Level::normal;
-  std::set<std::string> said_;
+  struct Repeated {
+    std::string first;
+    int more = 0;
+  };
+  std::map<std::string, Repeated> said_;  ///< by the text without its digits
   bool status_shown_ = false;
 };
 

@@ -27,16 +27,17 @@ const CommandText& command_named(const std::string& name) {
   throw Error(ErrorCode::internal, "no command " + name);
 }
 
+std::string bold(std::string_view text) { return cat("\\fB", roff(text), "\\fR"); }
+std::string italic(std::string_view text) { return cat("\\fI", roff(text), "\\fR"); }
+
 std::string man_options(const std::string& command) {
   std::string out;
   for (const OptionText& option : command_named(command).options) {
-    const bool positional = !option.names.starts_with('-');
-    out += ".TP\n";
-    if (positional)
-      out += ".I " + roff(option.value) + "\n";
-    else
-      out += ".BR " + roff(join(split(option.names, ','), "\", \"")) + (option.value.empty() ? "" : " \" \" \\fI" + roff(option.value) + "\\fR") + "\n";
-    out += roff(option.doc) + ".\n";
+    std::vector<std::string> names;
+    for (const std::string& name : split(option.names, ',')) names.push_back(bold(name));
+    std::string head = option.names.starts_with('-') ? join(names, ", ") + " " : "";
+    if (!option.value.empty()) head += italic(option.value);
+    out += cat(".TP\n", head, "\n", roff(option.doc), ".\n");
   }
   return out;
 }
@@ -46,8 +47,8 @@ std::string man_methods() {
   for (const preset::MethodInfo& method : preset::methods()) {
     out += ".SS " + roff(method.method) + "\n" + roff(method.summary) + ".\n";
     for (const params::Record& record : *method.table)
-      out += ".TP\n.BR " + roff(record.key) + " \" (" + roff(params::domain_text(record)) + "; default " + roff(record.default_value.dump()) +
-             ")\"\n" + roff(record.doc) + "\n";
+      out += ".TP\n.BR " + roff(record.key) + " \" (" + roff(params::domain_text(record)) + "; default " +
+             roff(record.default_value.dump()) + ")\"\n" + roff(record.doc) + "\n";
   }
   return out;
 }
@@ -62,7 +63,9 @@ std::string markdown_options(const std::string& command) {
   std::string out = "| option | what it does |\n| --- | --- |\n";
   for (const OptionText& option : command_named(command).options) {
     const bool positional = !option.names.starts_with('-');
-    std::string name = positional ? option.value : join(split(option.names, ','), ", ") + (option.value.empty() ? "" : " " + option.value);
+    std::string name = positional
+                           ? option.value
+                           : join(split(option.names, ','), ", ") + (option.value.empty() ? "" : " " + option.value);
     std::string doc = option.doc;
     for (std::string* text : {&name, &doc})
       for (size_t at = 0; (at = text->find('|', at)) != std::string::npos; at += 2) text->insert(at, "\\");

@@ -15,8 +15,10 @@ void need_names(const PresetsArgs& args, size_t least, size_t most, std::string_
 }
 
 int list() {
-  for (const std::string& name : preset::shipped_presets())
-    std::printf("%-20s %s\n", name.c_str(), preset::load_preset(name).preset.description.c_str());
+  for (const std::string& name : preset::shipped_presets()) {
+    const std::string description = preset::load_preset(name).preset.description;
+    std::printf("%-20s %s\n", name.c_str(), description.substr(0, description.find(". ") + 1).c_str());
+  }
   return 0;
 }
 

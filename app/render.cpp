@@ -76,6 +76,7 @@ int run_job(Job& job, const RenderArgs& args) {
   run.should_stop = [] { return stop_signal() != 0; };
   const size_t written = pipeline::run(job.views, *job.input.source, sink, run);
   progress.finish();
+  log().summarise();
   if (stop_signal() != 0) {
     log().note(cat("stopped by a signal: ", written, " of ", job.written.size(), " frames are complete"));
     end_by_signal(stop_signal());

@@ -12,7 +12,7 @@ const params::Table& ApplyAoParams::table() {
   using P = ApplyAoParams;
   static const params::Table records =
       params::TableBuilder<P>()
-          .add("target", &P::target, {"automatic", "everything", "ambient", "none"},
+          .add("target", &P::target, {"auto", "everything", "ambient", "none"},
                "What the AO darkens: the ambient light in the picture where the file has it and else everything, "
                "everything, "
                "the ambient light only, or nothing.")

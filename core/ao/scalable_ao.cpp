@@ -30,7 +30,7 @@ const params::Table& ScalableAoParams::table() {
                "Sine of the angle above the surface below which nothing occludes, against self-occlusion.")
           .add("scale", &P::scale, {0, 100}, "Strength of the occlusion before it is squared.")
           .add("depth_mips", &P::depth_mips, "Let taps far from their pixel read reduced depth, which is faster.")
-          .add("normals", &P::normals, {"automatic", "file", "depth"},
+          .add("normals", &P::normals, {"auto", "file", "depth"},
                "Where normals come from: the file if it has them and else the depth, the file only, or the depth only.")
           .add("per_frame_noise", &P::per_frame_noise,
                "Rotate the taps anew every frame, for a temporal filter to average.")

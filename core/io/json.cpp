@@ -107,7 +107,7 @@ JsonDocument::JsonDocument(std::string_view text, std::string_view file_name) : 
 std::string read_text_file(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) throw Error(ErrorCode::config, cat("cannot read \"", path, "\": ", std::strerror(errno)));
+  if (!stream) throw Error(ErrorCode::no_input, cat("cannot read \"", path, "\": ", std::strerror(errno)));
   return text;
 }
 

@@ -19,16 +19,16 @@ inline double determinant3(const Mat4& m) {
   return row(0).dot(row(1).cross(row(2)));
 }
 
-/// nullopt when the matrix is singular, nearly so (elements of the inverse above 1e12 times 1 / largest element), or
-/// not finite.
+/// nullopt when the matrix is not finite or singular, or so nearly that its first three rows span no volume: their
+/// determinant is below 1e-9 of the product of their lengths (a camera far from the origin is not singular).
 inline std::optional<Mat4> inverse(const Mat4& m) {
-  double largest = 0;
-  for (int i = 0; i < 16; ++i) largest = std::fmax(largest, std::abs(m[i / 4][i % 4]));
-  if (!std::isfinite(largest) || largest == 0) return std::nullopt;
+  double lengths = 1;
+  for (int r = 0; r < 3; ++r) lengths *= Vec3(m[r][0], m[r][1], m[r][2]).length();
+  if (!(std::abs(determinant3(m)) > 1e-9 * lengths) || !std::isfinite(lengths)) return std::nullopt;
   try {
     const Mat4 result = m.gjInverse(true);
     for (int i = 0; i < 16; ++i)
-      if (!(std::abs(result[i / 4][i % 4]) * largest < 1e12)) return std::nullopt;
+      if (!std::isfinite(result[i / 4][i % 4])) return std::nullopt;
     return result;
   } catch (const std::exception&) {  // "Cannot invert singular matrix."
     return std::nullopt;

@@ -15,6 +15,9 @@ Window blurred_window(const Frame& frame, int reach) {
   return intersection(spread, united(frame.display, w));
 }
 
+/// Share of the light below which nobody needs to hear of its loss.
+constexpr double kWorthSaying = 1e-3;
+
 /// Sum of |value| of the first three planes over the pixels inside or outside `inner`.
 double energy(const Layer& layer, Window window, Window inner, bool inside) {
   double sum = 0;
@@ -88,7 +91,7 @@ class ScalableBlur final : public Stage {
         lost += energy(layer, frame.window, data, false);
         kept += energy(layer, frame.window, data, true);
       }
-    if (lost > 0)
+    if (lost > kWorthSaying * (lost + kept))
       work.warn(cat("the data window cuts off ", fixed(100 * lost / (lost + kept), 2),
                     " % of the blurred light; --data-window grow keeps it"));
     work.change_window(data);

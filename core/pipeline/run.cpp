@@ -14,7 +14,8 @@ Frame load_or_fail(FrameSource& source, int number, const std::string& view, Rol
   return std::move(*frame);
 }
 
-/// Loads and filters every view of one frame; writes it if it is to be written.
+/// Loads and filters every view of one frame; writes it if it is to be written. Source and sink name the frame in their
+/// own errors.
 Progress visit(std::vector<ViewPipeline>& views, FrameSource& source, FrameSink& sink, const PlannedFrame& planned) {
   Progress progress{planned.number, planned.written, 0, 0, 0, {}};
   std::vector<Frame> frames;
@@ -22,9 +23,11 @@ Progress visit(std::vector<ViewPipeline>& views, FrameSource& source, FrameSink&
     if (!planned.written && !view.recursive()) continue;
     Frame frame = load_or_fail(source, planned.number, view.view(), view.roles(planned.written), planned.written);
     std::optional<Frame> previous;
-    if (!view.previous_roles().empty())
+    if (!planned.restarts && !view.previous_roles().empty())
       previous = source.load(planned.number - 1, view.view(), view.previous_roles(), false);
-    progress.results.push_back(view.run(frame, previous ? &*previous : nullptr, planned.written, planned.restarts));
+    progress.results.push_back(with_context(cat("frame ", planned.number), [&] {
+      return view.run(frame, previous ? &*previous : nullptr, planned.written, planned.restarts);
+    }));
     frames.push_back(std::move(frame));
   }
   if (planned.written) sink.write(planned.number, frames);
@@ -43,8 +46,7 @@ size_t run(std::vector<ViewPipeline>& views, FrameSource& source, FrameSink& sin
     planned.restarts = planned.restarts || broken;
     const auto start = std::chrono::steady_clock::now();
     try {
-      Progress progress =
-          with_context(cat("frame ", planned.number), [&] { return visit(views, source, sink, planned); });
+      Progress progress = visit(views, source, sink, planned);
       broken = false;
       done += planned.written ? 1 : 0;
       progress.done = done;

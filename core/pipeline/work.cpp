@@ -34,7 +34,7 @@ const filter::Surface& Work::surface(ao::NormalSource source) {
 }
 
 const filter::DepthPyramid& Work::pyramid() {
-  if (!pyramid_) pyramid_.emplace(frame.depth(), kDepthMips);
+  if (!pyramid_) pyramid_.emplace(frame.depth(), kDepthMips, frame.window.min_x, frame.window.min_y);
   return *pyramid_;
 }
 

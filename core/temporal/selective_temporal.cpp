@@ -41,7 +41,7 @@ const params::Table& SelectiveTemporalParams::table() {
                "Largest count of accumulated frames: with 8 a new frame weighs at least 1/9.")
           .add("selective", &S::selective,
                "Filter only near depth discontinuities; off, every pixel is filtered and moving objects leave trails.")
-          .add("reprojection", &S::reprojection, {"automatic", "camera"},
+          .add("reprojection", &S::reprojection, {"auto", "camera"},
                "Where history is found: by the camera and, where the vectors disagree with it, by the vectors, or by "
                "the "
                "camera alone.")

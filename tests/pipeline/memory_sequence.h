@@ -60,14 +60,14 @@ inline bool same_pixels(ConstPlaneView a, ConstPlaneView b) {
   return true;
 }
 
-/// Thin vertical blades (2 pixels of every 7) 1.5 m in front of a wall at 4 m, passed by a camera that trucks right by
+/// Thin vertical blades (2 pixels of every 7) 0.5 m in front of a wall at 3 m, passed by a camera that trucks right by
 /// 3 pixels a frame at the wall's depth; a beauty of 0.5 with alpha 1. 48x36 display window.
 inline Frame blade_frame(int number) {
   Frame frame;
   frame.number = number;
   frame.window = frame.display = {0, 0, 47, 35};
   Camera camera = camera_from_fov(60, 1, 0, 0, 48, 36);
-  const double step_m = 3 * 4 / camera.fx;
+  const double step_m = 3 * 3 / camera.fx;
   Mat4 world_to_camera;
   world_to_camera[3][0] = -number * step_m;
   camera.world_to_camera = world_to_camera;
@@ -77,9 +77,9 @@ inline Frame blade_frame(int number) {
     for (int x = 0; x < 48; ++x) {
       const double world_x = (x + 0.5 - camera.cx) / camera.fx * 2.5 + number * step_m;
       const bool blade = std::fmod(world_x / (7 * 2.5 / camera.fx) + 1000, 1.0) < 2.0 / 7;
-      depth(x, y) = blade ? 2.5F : 4.0F;
+      depth(x, y) = blade ? 2.5F : 3.0F;
       mv(x, y) =
-          static_cast<float>(step_m * camera.fx / (blade ? 2.5 : 4.0));  // the scene moves left, so it was to the right
+          static_cast<float>(step_m * camera.fx / (blade ? 2.5 : 3.0));  // the scene moves left, so it was to the right
     }
   Layer beauty;
   beauty.channels = {"R", "G", "B", "A"};
