@@ -25,16 +25,6 @@ double read_positive(const JsonReader& value) {
   return number;
 }
 
-std::string read_unit(const JsonReader& value) {
-  const std::string unit = value.is_text() ? value.text() : cat(value.number());
-  try {
-    metres_per_unit(unit);
-  } catch (const Error& error) {
-    value.fail(error.message(), error.hint());
-  }
-  return unit;
-}
-
 /// Camera space that looks along -Z to the canonical one.
 Mat4 flip_z() {
   Mat4 out;

@@ -10,6 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/units.h"
 
 namespace aftershade::io {
 
@@ -109,6 +110,16 @@ std::string read_text_file(const std::string& path) {
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   if (!stream) throw Error(ErrorCode::no_input, cat("cannot read \"", path, "\": ", std::strerror(errno)));
   return text;
+}
+
+std::string read_unit(const JsonReader& value) {
+  const std::string unit = value.is_text() ? value.text() : cat(value.number());
+  try {
+    metres_per_unit(unit);
+  } catch (const Error& error) {
+    value.fail(error.message(), error.hint());
+  }
+  return unit;
 }
 
 }  // namespace aftershade::io

@@ -1,6 +1,5 @@
 #pragma once
 #include <functional>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -46,6 +45,9 @@ class JsonDocument {
   nlohmann::ordered_json value_;
   std::string file_name_;
 };
+
+/// A unit of length as metres_per_unit() takes it: a name, or metres as a number.
+std::string read_unit(const JsonReader& value);
 
 /// The whole file; Error(config) with the reason.
 std::string read_text_file(const std::string& path);

@@ -1,13 +1,7 @@
 #include "core/io/profile.h"
 
-#include <cmath>
-#include <fstream>
-#include <iterator>
-#include <nlohmann/json.hpp>
-
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/units.h"
 #include "core/io/json.h"
 
 namespace aftershade::profiles {
@@ -124,23 +118,13 @@ void read_colors(const JsonReader& value, Profile& profile) {
   }
 }
 
-std::string unit_text(const JsonReader& value) {
-  const std::string unit = value.is_text() ? value.text() : cat(value.number());
-  try {
-    metres_per_unit(unit);
-  } catch (const Error& error) {
-    value.fail(error.what());
-  }
-  return unit;
-}
-
 Profile read_profile(const JsonReader& root) {
   Profile profile;
   std::vector<std::string> keys{"description", "detect", "color", "camera", "unit"};
   for (const RoleInfo& role : kRoles) keys.emplace_back(role.name);
   root.allow(keys);
   root.optional("description", [&](const JsonReader& v) { profile.description = v.text(); });
-  root.optional("unit", [&](const JsonReader& v) { profile.unit = unit_text(v); });
+  root.optional("unit", [&](const JsonReader& v) { profile.unit = read_unit(v); });
   root.optional("color", [&](const JsonReader& v) { read_colors(v, profile); });
   root.optional("detect", [&](const JsonReader& v) {
     for (const JsonReader& sign : v.elements()) profile.detect.push_back(read_sign(sign));
