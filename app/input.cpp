@@ -106,6 +106,7 @@ Input open_input(const InputArgs& args) {
   options.blur_layers = args.blur_layers;
   options.nan_is_error = args.nan == "error";
   input.source = std::make_unique<io::FileSource>(std::move(options));
+  input.source->on_note = [](int frame, const std::string& text) { log().note(cat("frame ", frame, ": ", text)); };
 
   const std::vector<std::string> views = input.source->views();
   input.views = args.views.empty() ? views : args.views;
