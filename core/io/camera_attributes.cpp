@@ -130,12 +130,11 @@ Camera normalize_camera(Mat4 world_to_camera, Mat4 world_to_ndc, Window display,
 namespace {
 
 std::optional<Mat4> find_matrix(const ExrReader& file, int part, const std::string& pattern, std::string& found_name) {
-  found_name = pattern;
-  if (auto matrix = file.matrix(part, pattern)) return matrix;
   for (const std::string& name : file.attribute_names(part)) {
+    if (!glob_match(pattern, name)) continue;
     found_name = name;
-    if (glob_match(pattern, name))
-      if (auto matrix = file.matrix(part, name)) return matrix;
+    if (auto matrix = file.matrix(part, name)) return matrix;
+    throw Error(ErrorCode::data, cat("the attribute ", name, " is not a matrix"), "m44f or m44d is expected");
   }
   return std::nullopt;
 }

@@ -100,6 +100,15 @@ LayerChoice& choice_for(std::vector<LayerChoice>& layers, const ColorBinding& bi
   return layers.emplace_back(LayerChoice{binding});
 }
 
+/// Effects change light; whole numbers are ids or masks.
+void refuse_uint(const FileInfo& info, const ColorBinding& binding) {
+  for (const ChannelRef& ref : binding.channels)
+    if (info.parts[static_cast<size_t>(ref.part)].find(ref.channel)->type == PixelType::uint)
+      throw Error(ErrorCode::data,
+                  cat(info.path, ": channel ", ref.channel, " holds whole numbers (uint), which effects cannot change"),
+                  "choose layers of half or float channels");
+}
+
 std::vector<LayerChoice> choose_layers(const FileInfo& info, const std::string& view,
                                        const std::vector<ColorBinding>& colors, const SourceOptions& options,
                                        const std::vector<std::string>& cryptomattes) {
@@ -111,6 +120,7 @@ std::vector<LayerChoice> choose_layers(const FileInfo& info, const std::string& 
   };
   choose(options.ao_layers, &LayerChoice::ao);
   choose(options.blur_layers, &LayerChoice::blur);
+  for (const LayerChoice& layer : layers) refuse_uint(info, layer.binding);
   return layers;
 }
 
@@ -160,7 +170,7 @@ Resolved resolve(const SourceOptions& options) {
     state.roles = bind_roles(out, options, view);
     state.colors = resolve_colors(out.first, view, options.profile, options.channel_overrides, cryptomattes);
     state.layers = choose_layers(out.first, view, state.colors, options, cryptomattes);
-    const auto camera = find_camera(file, options, number, view, nullptr);
+    const auto camera = with_context(out.first.path, [&] { return find_camera(file, options, number, view, nullptr); });
     state.header_camera = has_header_camera(file, options, view);
     for (const RoleBinding& binding : state.roles) {
       const bool needs_position = binding.role == Role::normal && binding.encoding.normal_space == NormalSpace::world;

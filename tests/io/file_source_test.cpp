@@ -123,6 +123,21 @@ TEST_F(FileSourceTest, ChangesWithinASequenceAreRefused) {
              {"frame 3 (", "channel Z (depth) is missing", "a.0001.exr"});
 }
 
+TEST_F(FileSourceTest, WrongTypesAreNamed) {
+  const Plane plane(8, 6, 1.0F);
+  NewFile ids{.display_window = {0, 0, 7, 5}, .data_window = {0, 0, 7, 5}, .channels = {}, .matrices = {}, .texts = {}};
+  for (const char* name : {"R", "G", "B"}) ids.channels.push_back({name, PixelType::uint, plane});
+  write_new_exr(ids, path("ids.0001.exr"));
+  expect_has(message([&] { FileSource source(options("ids.####.exr")); }, ErrorCode::data),
+             {"ids.0001.exr", "channel R", "uint"});
+  NewFile text = ids;
+  for (NewChannel& channel : text.channels) channel.type = PixelType::half;
+  text.texts = {{"worldToCamera", "1 0 0 0"}};
+  write_new_exr(text, path("text.0001.exr"));
+  expect_has(message([&] { FileSource(options("text.####.exr")).load(1, "", {}, true); }, ErrorCode::data),
+             {"text.0001.exr", "worldToCamera is not a matrix"});
+}
+
 TEST_F(FileSourceTest, MissingMatricesAndSingularMatrices) {
   Mat4 view, ndc;
   view[2][2] = -1;

@@ -58,13 +58,21 @@ TEST(Inverse, TakesSmallUnits) {
 TEST(Inverse, RefusesSingularAndNonFiniteMatrices) {
   Mat4 zero(0.0), flat, nearly, nan, infinite;
   flat[2][2] = 0;
-  nearly[2][2] = 1e-13;
+  nearly[1][0] = 1, nearly[1][1] = 1e-12;  // two rows that are all but parallel
   nan[0][1] = std::numeric_limits<double>::quiet_NaN();
   infinite[3][0] = std::numeric_limits<double>::infinity();
   for (const Mat4& m : {zero, flat, nearly, infinite}) EXPECT_EQ(inverse(m), std::nullopt) << m;
   EXPECT_EQ(inverse(nan), std::nullopt);
   nan[0][1] = 0, nan[0][0] = std::numeric_limits<double>::quiet_NaN();  // the first element that is looked at
   EXPECT_EQ(inverse(nan), std::nullopt);
+}
+
+TEST(Inverse, TakesACameraFarFromTheOrigin) {
+  Mat4 far;
+  far[3][0] = 1e9, far[3][2] = -2e9;  // a thousand kilometres in millimetres
+  const auto result = inverse(far);
+  ASSERT_TRUE(result);
+  EXPECT_EQ((*result)[3][0], -1e9);
 }
 
 TEST(Determinant3, TellsHandedness) {

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -17,7 +18,8 @@ constexpr RenderSettings kSize{64, 36, 1};
 class SceneFile : public testing::Test {
  protected:
   SceneFile()
-      : frame_(render(find_scene("columns"), 3, kSize)), path_(testing::TempDir() + "aftershade_scene.0003.exr") {}
+      : frame_(render(find_scene("columns"), 3, kSize)),
+        path_(testing::TempDir() + "aftershade_scene_" + std::to_string(getpid()) + ".0003.exr") {}
   ~SceneFile() override { std::filesystem::remove(path_); }
 
   static Plane read(const io::ExrReader& file, const std::string& channel) {
