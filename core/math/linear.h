@@ -26,7 +26,7 @@ inline std::optional<Mat4> inverse(const Mat4& m) {
   for (int r = 0; r < 3; ++r) lengths *= Vec3(m[r][0], m[r][1], m[r][2]).length();
   if (!(std::abs(determinant3(m)) > 1e-9 * lengths) || !std::isfinite(lengths)) return std::nullopt;
   try {
-    const Mat4 result = m.gjInverse(true);
+    const Mat4 result = m.inverse(true);
     for (int i = 0; i < 16; ++i)
       if (!std::isfinite(result[i / 4][i % 4])) return std::nullopt;
     return result;
