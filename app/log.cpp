@@ -19,27 +19,27 @@ void Log::print(std::string_view prefix, std::string_view text) {
 void Log::error(std::string_view text) { print("aftershade: error: ", text); }
 
 void Log::warning(std::string_view text) {
-  if (level_ != Level::errors && first_time(text)) print("aftershade: warning: ", text);
+  if (level_ != Level::errors && is_first_of_its_kind(text)) print("aftershade: warning: ", text);
 }
 
 void Log::note(std::string_view text) {
-  if (level_ != Level::errors && first_time(text)) print("aftershade: ", text);
+  if (level_ != Level::errors && (verbose() || noted_.insert(std::string(text)).second)) print("aftershade: ", text);
 }
 
-bool Log::first_time(std::string_view text) {
+bool Log::is_first_of_its_kind(std::string_view text) {
   if (verbose()) return true;
   std::string key(text);
   std::erase_if(key, [](unsigned char c) { return std::isdigit(c) != 0; });
-  const auto [entry, inserted] = said_.try_emplace(key, Repeated{std::string(text)});
+  const auto [entry, inserted] = warned_.try_emplace(key, Repeated{std::string(text)});
   if (!inserted) ++entry->second.more;
   return inserted;
 }
 
 void Log::summarise() {
-  for (auto& [key, repeated] : said_)
+  for (auto& [key, repeated] : warned_)
     if (repeated.more > 0 && level_ != Level::errors)
-      print("aftershade: ", cat(repeated.more, " more like \"", repeated.first, "\"; -v shows all"));
-  said_.clear();
+      print("aftershade: ", cat(repeated.more, " more warnings like \"", repeated.first, "\"; -v shows all"));
+  warned_.clear();
 }
 
 void Log::line(std::string_view text) { print("aftershade: ", text); }

@@ -1,12 +1,13 @@
 #pragma once
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 
 namespace aftershade::app {
 
-/// Messages to stderr; data goes to stdout. Of notes and warnings that differ in their numbers only, the first is
-/// printed (all of them when verbose), and summarise() says how many followed.
+/// Messages to stderr; data goes to stdout. A note that repeats is printed once. Of warnings that differ in their
+/// numbers only, the first is printed, and summarise() says how many followed. Verbose prints them all.
 class Log {
  public:
   enum class Level { errors, normal, verbose };
@@ -19,7 +20,7 @@ class Log {
   void line(std::string_view text);    ///< always, however often
   void detail(std::string_view text);  ///< only with -v
 
-  /// Says how many messages were held back since the last call.
+  /// Says how many warnings were held back since the last call.
   void summarise();
 
   /// A line that the next call overwrites; only for terminals.
@@ -28,13 +29,14 @@ class Log {
 
  private:
   void print(std::string_view prefix, std::string_view text);
-  bool first_time(std::string_view text);
+  bool is_first_of_its_kind(std::string_view text);
   Level level_ = Level::normal;
   struct Repeated {
     std::string first;
     int more = 0;
   };
-  std::map<std::string, Repeated> said_;  ///< by the text without its digits
+  std::map<std::string, Repeated> warned_;  ///< by the text without its digits
+  std::set<std::string> noted_;
   bool status_shown_ = false;
 };
 

@@ -1,3 +1,5 @@
+#include <filesystem>
+
 #include "app/job.h"
 #include "app/log.h"
 #include "core/base/error.h"
@@ -65,7 +67,7 @@ int sheet(const SheetArgs& args) {
   const bool with_ao = after.source->available(after.views.front()).contains(Role::ao);
   if (!with_ao) log().note("the sequence after has no AO channel (render with --ao): the sheet shows before and after");
   preview::Sheet sheet;
-  sheet.title = after.found.pattern.text();
+  sheet.title = std::filesystem::path(after.found.pattern.text()).filename().string();
   sheet.style.max_cell_width_px = args.cell_width;
   for (const int frame : frames_to_show(args, before, after)) {
     std::vector<preview::Cell>& row = sheet.rows.emplace_back();
