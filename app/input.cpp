@@ -92,8 +92,8 @@ Input open_input(const InputArgs& args) {
   for (const std::string& text : args.channels) options.channel_overrides.insert(split_role(text, "--channel", true));
   for (const std::string& text : args.roles) {
     const auto [role, pattern] = split_role(text, "--role", false);
-    options.siblings.push_back(
-        {*role_from_name(role), io::find_sequence(pattern, hash_digits(args.hash_digits)).sequence});
+    input.siblings.push_back(io::find_sequence(pattern, hash_digits(args.hash_digits)).sequence);
+    options.siblings.push_back({*role_from_name(role), input.siblings.back()});
   }
   options.depth_kind = depth_kind(args.depth_kind);
   options.near_plane = args.near_plane;

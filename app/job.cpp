@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <map>
 
 #include "app/log.h"
 #include "core/base/error.h"
@@ -39,13 +40,22 @@ void check_folder(const std::string& path) {
                 "check its permissions");
 }
 
-/// Refuses to write over a frame that is read.
+/// Refuses to write over a frame that is read, under whatever name.
 void check_not_input(const Job& job) {
-  for (const int frame : job.written)
-    for (const auto& source : job.input.found.sequence.entries())
-      if (io::same_file(job.output_path(frame), source.path))
-        throw Error(ErrorCode::usage, cat("the output ", job.output_path(frame), " is the input frame ", source.frame),
-                    "write to another folder or another name");
+  std::map<io::FileId, std::string> inputs;
+  const auto add = [&](const io::Sequence& sequence) {
+    for (const auto& entry : sequence.entries())
+      if (const auto id = io::file_id(entry.path)) inputs.emplace(*id, entry.path);
+  };
+  add(job.input.found.sequence);
+  for (const io::Sequence& sibling : job.input.siblings) add(sibling);
+  for (const int frame : job.written) {
+    const auto id = io::file_id(job.output_path(frame));
+    const auto input = id ? inputs.find(*id) : inputs.end();
+    if (input != inputs.end())
+      throw Error(ErrorCode::usage, cat("the output ", job.output_path(frame), " is the input frame ", input->second),
+                  "write to another folder or another name");
+  }
 }
 
 bool is_complete(const std::string& path) {

@@ -17,6 +17,7 @@ struct Input {
   io::FoundSequence found;
   std::vector<int> frames;  ///< the frames asked for that exist, sorted
   std::vector<int> holes;   ///< the frames asked for that do not
+  std::vector<io::Sequence> siblings;  ///< of --role
   io::Detected producer;
   std::string unit;  ///< "m" ..., and where it comes from
   std::string unit_origin;

@@ -1,4 +1,7 @@
 #pragma once
+#include <compare>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -12,7 +15,12 @@ void publish(std::span<const char> bytes, const std::string& path);
 /// Removes the temporaries that this process has open, from a signal handler or an exit path: async-signal-safe.
 void remove_temporaries() noexcept;
 
-/// Do both paths name the same file (device and inode)? False when one does not exist.
-bool same_file(const std::string& a, const std::string& b);
+/// What a path leads to, whatever it is called: two names of one file have equal ids. nullopt when there is no such
+/// file.
+struct FileId {
+  uint64_t device, inode;
+  auto operator<=>(const FileId&) const = default;
+};
+std::optional<FileId> file_id(const std::string& path);
 
 }  // namespace aftershade::io

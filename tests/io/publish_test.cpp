@@ -126,18 +126,18 @@ TEST(Publish, ASignalHandlerRemovesTheTemporary) {
   EXPECT_EQ(folder.file_count(), 0U);
 }
 
-TEST(SameFile, ComparesFilesNotNames) {
+TEST(FileId, TellsFilesNotNames) {
   const TempFolder folder;
   tests::write_file(folder / "a", "x");
   tests::write_file(folder / "b", "x");
   ASSERT_EQ(::link((folder / "a").c_str(), (folder / "hard").c_str()), 0);
   ASSERT_EQ(::symlink((folder / "a").c_str(), (folder / "soft").c_str()), 0);
-  EXPECT_TRUE(same_file(folder / "a", folder / "a"));
-  EXPECT_TRUE(same_file(folder / "a", folder / "hard"));
-  EXPECT_TRUE(same_file(folder / "soft", folder / "a"));
-  EXPECT_FALSE(same_file(folder / "a", folder / "b"));
-  EXPECT_FALSE(same_file(folder / "a", folder / "none"));
-  EXPECT_FALSE(same_file(folder / "none", folder / "none"));
+  const auto id = file_id(folder / "a");
+  ASSERT_TRUE(id);
+  EXPECT_EQ(file_id(folder / "hard"), id);
+  EXPECT_EQ(file_id(folder / "soft"), id);
+  EXPECT_NE(file_id(folder / "b"), id);
+  EXPECT_FALSE(file_id(folder / "none"));
 }
 
 }  // namespace
