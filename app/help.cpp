@@ -1,5 +1,7 @@
 #include "app/help.h"
 
+#include <algorithm>
+
 #include "core/base/text.h"
 
 namespace aftershade::app {
@@ -79,13 +81,16 @@ std::string full_help() {
 }
 
 std::string short_help(const CommandText& command) {
+  constexpr char kHardBlank = '\x1f';  // keeps an option and its value on one line
   std::vector<std::string> names;
   for (const OptionText& option : command.options)
     if (option.names.starts_with('-'))
-      names.push_back(split(option.names, ',').back() + (option.value.empty() ? "" : " " + option.value));
-  return "aftershade " + command.name + ": " + command.summary + "\n\nExamples:\n" + examples_of(command) +
-         "\nUsage: aftershade " + command.name + " " + command.synopsis + "\n\nOptions:\n  " +
-         wrap(join(names, "  "), kWidth, 2) + "\n\n  aftershade " + command.name + " --help says what each does\n";
+      names.push_back(split(option.names, ',').back() + (option.value.empty() ? "" : kHardBlank + option.value));
+  std::string options = wrap(join(names, " "), kWidth, 2);
+  std::replace(options.begin(), options.end(), kHardBlank, ' ');
+  return cat("aftershade ", command.name, ": ", command.summary, "\n\nExamples:\n", examples_of(command),
+             "\nUsage: aftershade ", command.name, " ", command.synopsis, "\n\nOptions:\n  ", options,
+             "\n\n  aftershade ", command.name, " --help says what each does\n");
 }
 
 std::string full_help(const CommandText& command) {
