@@ -19,9 +19,11 @@ struct Layer {
   std::vector<Plane> planes;          ///< all of the frame's window; 0 where the file has no pixel
   int alpha = -1;                     ///< index of the alpha plane, or -1
   int part = 0;                       ///< the part of the file that holds it
+  Window data_window;                 ///< of that part: the pixels that are written; blur may let it grow
   bool receives_ao = false;
   bool receives_blur = false;
   bool is_beauty = false;
+  bool changed = false;  ///< a stage has changed its pixels
 };
 
 /// One view of one frame: what effects read (roles), what they change (layers), what they add (added).
@@ -30,15 +32,16 @@ struct Layer {
 struct Frame {
   int number = 0;
   std::string view;  ///< "" when the file has no views
-  Window window;     ///< union of the data windows of the parts that hold roles and layers
+  int part = 0;      ///< the part of the file that added channels go to: the beauty's
+  Window window;     ///< union of the data windows of all roles and layers of the view, whichever of them are loaded
   Window display;
   float pixel_aspect = 1;  ///< width / height of a pixel
   std::optional<Camera> camera;
   std::optional<float> shutter_angle_deg;  ///< the header's shutterAngle: 360 exposes the whole frame interval
   std::array<std::vector<Plane>, kRoleCount> roles;
   std::vector<Layer> layers;
-  std::map<std::string, Plane>
-      added;  ///< new channels by name without view ("AO", "aftershade.mask"); half in the file
+  /// Channels to add, by name without view ("AO", "aftershade.mask"); half in the file unless it has them already.
+  std::map<std::string, Plane> added;
 
   bool has(Role role) const { return !roles[static_cast<size_t>(role)].empty(); }
   std::vector<Plane>& planes(Role role) { return roles[static_cast<size_t>(role)]; }
