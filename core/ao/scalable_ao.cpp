@@ -56,7 +56,7 @@ float noise_turns(const ScalableAoParams& params, int frame_number) {
 }
 
 DepthLevels depth_levels(const filter::DepthPyramid& pyramid, bool mips) {
-  const int count = mips ? std::min(pyramid.levels(), kMaxLevels) : 1;
+  const int count = mips ? std::min(pyramid.levels(), kDepthLevels) : 1;
   const auto level = [&](int m) { return Samples(pyramid.level(std::min(m, count - 1))); };
   return {{level(0), level(1), level(2), level(3), level(4), level(5)}, count, pyramid.origin_x(), pyramid.origin_y()};
 }

@@ -6,6 +6,9 @@
 
 namespace aftershade::ao {
 
+/// Levels of the depth pyramid that taps read: the image and five mips (SAO's MAX_MIP_LEVEL, algorithms 4.2).
+inline constexpr int kDepthLevels = 6;
+
 enum class Resolution { full, half };
 enum class TapPattern { mirrored, spiral };
 enum class NormalSource { automatic, file, depth };

@@ -2,6 +2,7 @@
 #include <array>
 #include <span>
 
+#include "core/ao/scalable_ao.h"
 #include "core/ao/tap_pattern.h"
 #include "core/filter/lane_geometry.h"
 
@@ -11,13 +12,12 @@ using namespace lanes;
 using filter::Point;
 using filter::Samples;
 
-inline constexpr int kMaxLevels = 6;       ///< SAO's MAX_MIP_LEVEL is 5 (algorithms 4.2)
 inline constexpr int kLogMaxOffset = 3;    ///< SAO's LOG_MAX_OFFSET: taps nearer than 16 px read level 0
 inline constexpr float kMinTapPx = 0.75F;  ///< SAO: a tap never falls on the pixel itself
 
 /// The depth pyramid, read so that each value is put where it was taken.
 struct DepthLevels {
-  std::array<Samples, kMaxLevels> levels;
+  std::array<Samples, kDepthLevels> levels;
   int count;
   int origin_x, origin_y;  ///< absolute coordinates of level 0's index (0, 0)
 };

@@ -15,7 +15,7 @@ struct BilateralBlurParams {
   float radius_px = 4;  ///< at the reference height, in texels of the AO's own grid
   float reference_height_px = 1080;
   float edge_distance_m = 0.05F;  ///< tolerance: at least this far from the tangent plane ...
-  float edge_footprints = 2;      ///< ... or this many pixel footprints at the pixel's depth
+  float edge_footprints = 2;      ///< ... or this many footprints of a grid texel at the pixel's depth
   static const params::Table& table();
   bool operator==(const BilateralBlurParams&) const = default;
 };

@@ -66,4 +66,13 @@ SampleGrid half_grid(const Surface& surface) {
   return grid;
 }
 
+Plane values_at_pixels(ConstPlaneView values, const SampleGrid& grid, const Surface& surface) {
+  Plane out(surface.depth.width, surface.depth.height);
+  for_rows(out.height(), [&](int y) {
+    const float* row = values.row((y - grid.origin_y) / grid.step);
+    for (int x = 0; x < out.width(); ++x) out(x, y) = row[(x - grid.origin_x) / grid.step];
+  });
+  return out;
+}
+
 }  // namespace aftershade::filter

@@ -24,4 +24,7 @@ SampleGrid full_grid(const Surface& surface);
 /// layers of a silhouette are represented. Pixels outside the window are never picked.
 SampleGrid half_grid(const Surface& surface);
 
+/// The grid's values at every pixel of the surface: each pixel has its block's.
+Plane values_at_pixels(ConstPlaneView values, const SampleGrid& grid, const Surface& surface);
+
 }  // namespace aftershade::filter

@@ -18,13 +18,14 @@ class ScalableAo final : public Stage {
   }
 
   void run(Work& work) override {
-    const filter::Surface& surface = work.surface(params_.normals);
+    work.choose_normals(params_.normals);
+    const filter::Surface& surface = work.surface();
     const bool full = params_.resolution == ao::Resolution::full;
     work.grid = full ? filter::full_grid(surface) : filter::half_grid(surface);
     work.ao = ao::scalable_ao(params_, surface, work.pyramid(), *work.grid, work.frame.number);
     work.ao_at_pixels = full;
     if (work.options.diagnostics)
-      work.frame.added["aftershade.ao_raw"] = temporal::mask_at_pixels(work.ao, *work.grid, surface);
+      work.frame.added["aftershade.ao_raw"] = filter::values_at_pixels(work.ao, *work.grid, surface);
   }
 
  private:
@@ -39,14 +40,15 @@ class BilateralBlur final : public Stage {
     Needs needs;
     needs.required = {Role::depth};
     needs.optional = {Role::normal};
-    needs.lens = needs.ao = true;
+    needs.lens = needs.ao = needs.grid = true;
     return needs;
   }
 
   void run(Work& work) override {
     const filter::Surface& surface = work.surface();
-    if (work.ao_at_pixels && work.grid->step != 1) work.grid = filter::full_grid(surface);
-    work.ao = filter::bilateral_blur(params_, work.ao, *work.grid, surface);
+    const bool on_grid = !work.ao_at_pixels || work.grid->step == 1;
+    work.ao = on_grid ? filter::bilateral_blur(params_, work.ao, *work.grid, surface)
+                      : filter::bilateral_blur(params_, work.ao, filter::full_grid(surface), surface);
   }
 
  private:
@@ -61,7 +63,7 @@ class BilateralUpsample final : public Stage {
     Needs needs;
     needs.required = {Role::depth};
     needs.optional = {Role::normal};
-    needs.lens = needs.ao = needs.makes_ao_at_pixels = true;
+    needs.lens = needs.ao = needs.grid = needs.makes_ao_at_pixels = true;
     return needs;
   }
 
@@ -93,6 +95,8 @@ class ApplyAo final : public Stage {
       work.note(ambient ? "AO is applied to the ambient light only (the file has it)"
                         : "AO is applied to everything (no ambient light channel was found)");
     ao::apply_ao(params_, work.ao, work.frame);
+    for (Layer& layer : work.frame.layers)
+      layer.changed = layer.changed || (layer.receives_ao && params_.target != ao::ApplyTarget::none);
   }
 
  private:

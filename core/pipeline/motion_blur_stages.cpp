@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "core/base/text.h"
-#include "core/parallel/rows.h"
+#include "core/motionblur/tile_max.h"
 #include "core/pipeline/stage.h"
 
 namespace aftershade::pipeline {
@@ -18,17 +18,34 @@ Window blurred_window(const Frame& frame, int reach) {
 /// Share of the light below which nobody needs to hear of its loss.
 constexpr double kWorthSaying = 1e-3;
 
-/// Sum of |value| of the first three planes over the pixels inside or outside `inner`.
-double energy(const Layer& layer, Window window, Window inner, bool inside) {
-  double sum = 0;
+Window expanded(Window w, int reach) { return {w.min_x - reach, w.min_y - reach, w.max_x + reach, w.max_y + reach}; }
+
+/// The longest vector, rounded up to whole pixels.
+int reach_px(const motionblur::HalfVelocity& velocity) {
+  double longest = 0;
+  for (int y = 0; y < velocity.x.height(); ++y)
+    for (int x = 0; x < velocity.x.width(); ++x) {
+      const double vx = velocity.x(x, y), vy = velocity.y(x, y);
+      longest = std::max(longest, vx * vx + vy * vy);
+    }
+  return static_cast<int>(std::ceil(std::sqrt(longest)));
+}
+
+/// Sum of |value| of the first three planes inside `inner` and everywhere.
+struct Light {
+  double inside = 0, all = 0;
+};
+Light light_of(const Layer& layer, Window window, Window inner) {
+  Light light;
   for (size_t c = 0; c < layer.planes.size() && c < 3; ++c)
     for (int y = 0; y < window.height(); ++y)
       for (int x = 0; x < window.width(); ++x) {
-        const float value = layer.planes[c](x, y);
-        if (inner.contains(x + window.min_x, y + window.min_y) == inside && std::isfinite(value))
-          sum += std::abs(value);
+        const double value = std::abs(layer.planes[c](x, y));
+        if (!std::isfinite(value)) continue;
+        light.all += value;
+        if (inner.contains(x + window.min_x, y + window.min_y)) light.inside += value;
       }
-  return sum;
+  return light;
 }
 
 class ScalableBlur final : public Stage {
@@ -39,23 +56,33 @@ class ScalableBlur final : public Stage {
     Needs needs;
     needs.any_of = {Role::velocity_next, Role::velocity_prev};
     needs.optional = {Role::depth};
-    needs.layers = true;
+    needs.layers = needs.window = true;
     return needs;
   }
 
   void run(Work& work) override {
     Frame& frame = work.frame;
     const int radius = motionblur::max_radius_px(params_, frame.display.height());
-    const Window data = frame.window;
-    work.change_window(blurred_window(frame, radius));
-    const motionblur::HalfVelocity velocity = half_velocity(work, static_cast<float>(radius));
+    motionblur::HalfVelocity velocity = half_velocity(work, static_cast<float>(radius));
+    const int reach = reach_px(velocity);
+    const Window widest = united(frame.display, frame.window);  // blur may fill the picture, not leave it
+    const Window window = intersection(expanded(frame.window, reach), widest);
+    if (window != frame.window) {
+      work.change_window(window);
+      velocity = half_velocity(work, static_cast<float>(radius));
+    }
     const motionblur::BlurInput input{frame.has(Role::depth) ? ConstPlaneView(frame.depth()) : ConstPlaneView(),
                                       &velocity, frame.window, frame.display.height()};
     motionblur::HalfVelocity tiles;
-    for (Layer& layer : frame.layers)
-      if (layer.receives_blur) blur(layer, input, work.options.diagnostics ? &tiles : nullptr);
+    for (Layer& layer : frame.layers) {
+      if (!layer.receives_blur) continue;
+      blur(layer, input, work.options.diagnostics ? &tiles : nullptr);
+      if (work.options.grow_data_window)
+        layer.data_window = intersection(expanded(layer.data_window, reach), widest);
+      else
+        warn_of_lost_light(work, layer);
+    }
     if (work.options.diagnostics) add_tiles(frame, tiles, radius);
-    if (!work.options.grow_data_window) crop(work, data);
   }
 
  private:
@@ -63,6 +90,15 @@ class ScalableBlur final : public Stage {
     std::vector<Plane*> channels;
     for (Plane& plane : layer.planes) channels.push_back(&plane);
     motionblur::scalable_motion_blur(params_, input, channels, tiles);
+    layer.changed = true;
+  }
+
+  static void warn_of_lost_light(Work& work, const Layer& layer) {
+    const Light light = light_of(layer, work.frame.window, layer.data_window);
+    const double lost = light.all > 0 ? 1 - light.inside / light.all : 0;
+    if (lost > kWorthSaying)
+      work.warn(cat("the data window cuts off ", fixed(100 * lost, 2),
+                    " % of the blurred light; --data-window grow keeps it"));
   }
 
   motionblur::HalfVelocity half_velocity(Work& work, float radius) const {
@@ -81,36 +117,15 @@ class ScalableBlur final : public Stage {
     return params_.shutter_frames;
   }
 
-  /// Back to the data window, saying how much light that cuts off.
-  static void crop(Work& work, Window data) {
-    const Frame& frame = work.frame;
-    if (frame.window == data) return;
-    double lost = 0, kept = 0;
-    for (const Layer& layer : frame.layers)
-      if (layer.receives_blur) {
-        lost += energy(layer, frame.window, data, false);
-        kept += energy(layer, frame.window, data, true);
-      }
-    if (lost > kWorthSaying * (lost + kept))
-      work.warn(cat("the data window cuts off ", fixed(100 * lost / (lost + kept), 2),
-                    " % of the blurred light; --data-window grow keeps it"));
-    work.change_window(data);
-  }
-
+  /// The neighbourhood's velocity at every pixel.
   static void add_tiles(Frame& frame, const motionblur::HalfVelocity& tiles, int tile) {
+    if (tiles.x.empty()) return;
+    const motionblur::TileGrid grid(tile, frame.window);
     for (const auto& [name, source] :
          {std::pair{"aftershade.tile_velocity.x", &tiles.x}, {"aftershade.tile_velocity.y", &tiles.y}}) {
-      if (source->empty()) continue;
       Plane plane(frame.window.width(), frame.window.height());
-      const auto tile_of = [tile](int absolute, int first) {
-        return static_cast<int>(std::floor(static_cast<double>(absolute) / tile) -
-                                std::floor(static_cast<double>(first) / tile));
-      };
-      for_rows(plane.height(), [&](int y) {
-        for (int x = 0; x < plane.width(); ++x)
-          plane(x, y) = (*source)(tile_of(x + frame.window.min_x, frame.window.min_x),
-                                  tile_of(y + frame.window.min_y, frame.window.min_y));
-      });
+      for (int y = 0; y < plane.height(); ++y)
+        for (int x = 0; x < plane.width(); ++x) plane(x, y) = (*source)(grid.column_of(x), grid.row_of(y));
       frame.added[name] = std::move(plane);
     }
   }

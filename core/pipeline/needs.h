@@ -19,6 +19,7 @@ struct Needs {
   bool lens = false;          ///< needs to know the field of view
   bool ao = false;            ///< works on AO made by an earlier stage ...
   bool ao_at_pixels = false;  ///< ... which must be at full resolution by then
+  bool grid = false;          ///< ... and looks at the pixels that it was evaluated at
   bool makes_ao = false;
   bool makes_ao_at_pixels = false;
   bool layers = false;     ///< changes layers

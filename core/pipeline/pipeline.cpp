@@ -1,5 +1,6 @@
 #include "core/pipeline/pipeline.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "core/base/error.h"
@@ -25,6 +26,9 @@ void check_roles(const std::string& id, std::string_view method, const Needs& ne
     found = found || offer.roles.contains(role.role);
   }
   if (!found) fail_role(id, method, join(any, " or "));
+  if (needs.position && !offer.position)
+    throw Error(ErrorCode::no_input, cat("stage ", id, " (", method, ") needs to know where the camera stands"),
+                "the header has no camera matrices: give --camera FILE.json, or set " + id + ".reprojection=auto");
   if (needs.lens && !offer.lens)
     throw Error(ErrorCode::no_input, cat("stage ", id, " (", method, ") needs to know the camera's field of view"),
                 "the header has no camera matrices: give --fov DEGREES or --camera FILE.json, or leave the stage out "
@@ -32,29 +36,47 @@ void check_roles(const std::string& id, std::string_view method, const Needs& ne
                     id);
 }
 
-void check_order(const std::string& id, const Needs& needs, bool ao, bool ao_at_pixels) {
-  if (needs.ao && !ao)
+/// Filters may leave 0..1 by a rounding error.
+Plane clamped(Plane ao) {
+  for (int y = 0; y < ao.height(); ++y)
+    for (int x = 0; x < ao.width(); ++x) ao(x, y) = std::clamp(ao(x, y), 0.0F, 1.0F);
+  return ao;
+}
+
+/// What the stages so far leave for the next.
+struct Made {
+  bool ao = false, ao_at_pixels = false, grid = false;
+  void add(const Needs& needs) {
+    ao = ao || needs.makes_ao;
+    ao_at_pixels = needs.makes_ao_at_pixels || (ao_at_pixels && !needs.makes_ao);
+    grid = needs.makes_ao || (grid && !needs.window);
+  }
+};
+
+void check_order(const std::string& id, const Needs& needs, const Made& made) {
+  if (needs.ao && !made.ao)
     throw Error(ErrorCode::config, cat("stage ", id, " works on AO, but no stage before it makes any"),
                 "put an AO stage before it, or leave it out with --skip " + id);
-  if (needs.ao_at_pixels && !ao_at_pixels)
+  if (needs.ao_at_pixels && !made.ao_at_pixels)
     throw Error(ErrorCode::config, cat("stage ", id, " needs AO at full resolution"),
                 "put a bilateral-upsample stage before it");
+  if (needs.grid && !made.grid)
+    throw Error(ErrorCode::config, cat("stage ", id, " works on AO, but stands behind a stage that blurs the image"),
+                "put it before the motion blur");
 }
 
 }  // namespace
 
 ViewPipeline::ViewPipeline(const preset::Preset& preset, std::string view, const Offer& offer, const Outputs& outputs)
     : view_(std::move(view)), outputs_(outputs) {
-  bool ao = false, ao_at_pixels = false;
+  Made made;
   for (const preset::StageDescription& description : preset.stages) {
     Entry entry{description.id, make_stage(description.params), {}};
     entry.needs = entry.stage->needs(offer);
     if (entry.needs.layers && !outputs.layers) continue;
     check_roles(entry.id, preset::method_of(description.params), entry.needs, offer);
-    check_order(entry.id, entry.needs, ao, ao_at_pixels);
-    ao = ao || entry.needs.makes_ao;
-    if (entry.needs.makes_ao) ao_at_pixels = false;
-    ao_at_pixels = ao_at_pixels || entry.needs.makes_ao_at_pixels;
+    check_order(entry.id, entry.needs, made);
+    made.add(entry.needs);
     if (entry.needs.recursive) last_recursive_ = static_cast<int>(stages_.size());
     stages_.push_back(std::move(entry));
   }
@@ -100,7 +122,7 @@ ViewPipeline::Result ViewPipeline::run(Frame& frame, const Frame* previous, bool
     const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
     result.times.push_back({stages_[i].id, time.count()});
   }
-  if (outputs_.ao_channel && written) frame.added[*outputs_.ao_channel] = std::move(work.ao);
+  if (outputs_.ao_channel && written) frame.added[*outputs_.ao_channel] = clamped(std::move(work.ao));
   result.notes = std::move(work.notes);
   result.warnings = std::move(work.warnings);
   return result;

@@ -1,4 +1,5 @@
 #include <chrono>
+#include <new>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -21,7 +22,8 @@ Progress visit(std::vector<ViewPipeline>& views, FrameSource& source, FrameSink&
   std::vector<Frame> frames;
   for (ViewPipeline& view : views) {
     if (!planned.written && !view.recursive()) continue;
-    Frame frame = load_or_fail(source, planned.number, view.view(), view.roles(planned.written), planned.written);
+    Frame frame = load_or_fail(source, planned.number, view.view(), view.roles(planned.written),
+                               planned.written && view.changes_layers());
     std::optional<Frame> previous;
     if (!planned.restarts && !view.previous_roles().empty())
       previous = source.load(planned.number - 1, view.view(), view.previous_roles(), false);
@@ -32,6 +34,16 @@ Progress visit(std::vector<ViewPipeline>& views, FrameSource& source, FrameSink&
   }
   if (planned.written) sink.write(planned.number, frames);
   return progress;
+}
+
+/// Memory that runs out is this frame's failure, like any other.
+Progress visit_in_memory(std::vector<ViewPipeline>& views, FrameSource& source, FrameSink& sink,
+                         const PlannedFrame& planned) {
+  try {
+    return visit(views, source, sink, planned);
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorCode::memory, cat("frame ", planned.number, ": out of memory"), "fewer --threads need less");
+  }
 }
 
 }  // namespace
@@ -46,7 +58,7 @@ size_t run(std::vector<ViewPipeline>& views, FrameSource& source, FrameSink& sin
     planned.restarts = planned.restarts || broken;
     const auto start = std::chrono::steady_clock::now();
     try {
-      Progress progress = visit(views, source, sink, planned);
+      Progress progress = visit_in_memory(views, source, sink, planned);
       broken = false;
       done += planned.written ? 1 : 0;
       progress.done = done;

@@ -1,8 +1,12 @@
+#include "core/base/text.h"
 #include "core/pipeline/stage.h"
 
 namespace aftershade::pipeline {
 
 namespace {
+
+/// Share of a picture without a past that makes it a cut (algorithms 13).
+constexpr double kCut = 0.6;
 
 class SelectiveTemporal final : public Stage {
  public:
@@ -17,7 +21,8 @@ class SelectiveTemporal final : public Stage {
         needs.previous = {Role::velocity_next, Role::depth};
       if (!offer.position) needs.any_of = {Role::velocity_prev, Role::velocity_next};
     }
-    needs.lens = needs.ao = needs.ao_at_pixels = needs.recursive = true;
+    needs.position = params_.reprojection == temporal::ReprojectionSource::camera;
+    needs.lens = needs.ao = needs.ao_at_pixels = needs.grid = needs.recursive = true;
     return needs;
   }
 
@@ -29,8 +34,13 @@ class SelectiveTemporal final : public Stage {
   void run(Work& work) override {
     const filter::Surface& surface = work.surface();
     const Plane mask = stable_mask(work, surface);
-    work.ao = temporal::selective_temporal_filter(params_, work.ao, surface.depth, mask, reprojected(work),
-                                                  work.frame.window, history_);
+    const temporal::Reprojected before = reprojected(work);
+    if (temporal::share_without_history(params_, surface.depth, before, history_) > kCut) {
+      work.note(cat("frame ", work.frame.number, " looks like a cut: the AO's history starts anew"));
+      history_ = {};
+    }
+    work.ao =
+        temporal::selective_temporal_filter(params_, work.ao, surface.depth, mask, before, work.frame.window, history_);
     camera_before_ = work.frame.camera;
     if (!work.options.diagnostics) return;
     work.frame.added["aftershade.mask"] = copy_of(mask);
@@ -41,7 +51,7 @@ class SelectiveTemporal final : public Stage {
   Plane stable_mask(Work& work, const filter::Surface& surface) const {
     if (!params_.selective) return Plane(surface.depth.width, surface.depth.height, 0.0F);
     const Plane continuous = temporal::continuity_mask(params_, *work.grid, surface);
-    return temporal::mask_at_pixels(temporal::dilate_discontinuities(continuous, params_.dilation_texels), *work.grid,
+    return filter::values_at_pixels(temporal::dilate_discontinuities(continuous, params_.dilation_texels), *work.grid,
                                     surface);
   }
 
@@ -60,6 +70,7 @@ class SelectiveTemporal final : public Stage {
       const auto& next = work.previous->planes(Role::velocity_next);
       scattered = temporal::scatter_velocity(next[0], next[1], work.previous->depth(), work.previous->window,
                                              work.frame.window);
+      input.holes_are_invalid = true;
       input.mv_prev_x = scattered.x;
       input.mv_prev_y = scattered.y;
       work.note("no backward vectors: those of the frame before are carried forward");

@@ -5,8 +5,6 @@
 namespace aftershade::pipeline {
 
 namespace {
-constexpr int kDepthMips = 6;  // SAO's MAX_MIP 5 and the image itself (algorithms 4.2)
-
 float background_of(Role role) {
   if (role == Role::depth) return std::numeric_limits<float>::infinity();
   if (role == Role::velocity_prev || role == Role::velocity_next) return std::numeric_limits<float>::quiet_NaN();
@@ -20,10 +18,15 @@ void relay(Plane& plane, Window from, Window to, float background) {
 }
 }  // namespace
 
-const filter::Surface& Work::surface(ao::NormalSource source) {
+void Work::choose_normals(ao::NormalSource source) {
+  if (source != normals_) surface_.reset();
+  normals_ = source;
+}
+
+const filter::Surface& Work::surface() {
   if (surface_) return *surface_;
   const Projection projection = local_projection(frame.camera.value(), frame.window.min_x, frame.window.min_y);
-  const bool from_file = source != ao::NormalSource::depth && frame.has(Role::normal);
+  const bool from_file = normals_ != ao::NormalSource::depth && frame.has(Role::normal);
   if (!from_file) derived_normals_ = filter::normals_from_depth(frame.depth(), projection);
   const auto normal = [&](size_t i) {
     return from_file ? ConstPlaneView(frame.planes(Role::normal)[i]) : ConstPlaneView((*derived_normals_)[i]);
@@ -34,7 +37,7 @@ const filter::Surface& Work::surface(ao::NormalSource source) {
 }
 
 const filter::DepthPyramid& Work::pyramid() {
-  if (!pyramid_) pyramid_.emplace(frame.depth(), kDepthMips, frame.window.min_x, frame.window.min_y);
+  if (!pyramid_) pyramid_.emplace(frame.depth(), ao::kDepthLevels, frame.window.min_x, frame.window.min_y);
   return *pyramid_;
 }
 
@@ -48,6 +51,7 @@ void Work::change_window(Window window) {
   for (auto& [name, plane] : frame.added) relay(plane, before, window, 0);
   if (ao_at_pixels) relay(ao, before, window, 1);
   frame.window = window;
+  grid.reset();
   surface_.reset();
   derived_normals_.reset();
   pyramid_.reset();

@@ -29,13 +29,14 @@ class Work {
   const Frame* previous;  ///< frame f-1 with the roles that stages asked for, or nullptr
   const WorkOptions& options;
 
-  std::optional<filter::SampleGrid> grid;  ///< where the AO was evaluated
+  std::optional<filter::SampleGrid> grid;  ///< where the AO was evaluated; none once the window has changed
   Plane ao;                                ///< 1 = open; on the grid, later on every pixel
   bool ao_at_pixels = false;
 
-  /// The visible surface. The first caller decides whose normals are used: `automatic` takes the file's where it has
-  /// some.
-  const filter::Surface& surface(ao::NormalSource source = ao::NormalSource::automatic);
+  /// Whose normals the surface has from now on; `automatic` takes the file's where it has some.
+  void choose_normals(ao::NormalSource source);
+  /// The visible surface.
+  const filter::Surface& surface();
   /// Depth mips for taps far away.
   const filter::DepthPyramid& pyramid();
 
@@ -48,6 +49,7 @@ class Work {
   std::vector<std::string> notes, warnings;  ///< for the log
 
  private:
+  ao::NormalSource normals_ = ao::NormalSource::automatic;
   std::optional<filter::Surface> surface_;
   std::optional<filter::Normals> derived_normals_;
   std::optional<filter::DepthPyramid> pyramid_;

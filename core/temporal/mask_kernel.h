@@ -34,15 +34,4 @@ inline void least_across_rows(const LeastAcrossRows& row) {
   }
 }
 
-/// The texel that each pixel of a row belongs to, repeated: (pixel - origin) >> shift.
-struct ParentRow {
-  const float* texels;
-  int texel_count, origin, shift, width;
-  float* pixels;
-};
-inline void parent_row(const ParentRow& row) {
-  for (int x = 0; x < row.width; x += kLanes)
-    store(row.pixels + x, gather(row.texels, clamp((iota(x) - Int(row.origin)) >> row.shift, 0, row.texel_count - 1)));
-}
-
 }  // namespace aftershade::temporal

@@ -25,7 +25,7 @@ Vec3 static_surface(const ReprojectionInput& input, double x, double y, double z
 Vec3 where_it_was(const ReprojectionInput& input, double x, double y, double z, double mv_x, double mv_y,
                   double agreement_px) {
   const Vec3 before = static_surface(input, x, y, z);
-  if (!std::isfinite(mv_x) || !std::isfinite(mv_y)) return before;
+  if (!std::isfinite(mv_x) || !std::isfinite(mv_y)) return input.holes_are_invalid ? kUnknown : before;
   if (!input.camera) return {x + mv_x, y + mv_y, z};
   const double off_x = before.x - x - mv_x, off_y = before.y - y - mv_y;
   if (off_x * off_x + off_y * off_y <= agreement_px * agreement_px) return before;
@@ -42,8 +42,10 @@ Reprojected reproject(const ReprojectionInput& input, ReprojectionSource source,
     const double y = input.window.min_y + j + 0.5;
     for (int i = 0; i < width; ++i) {
       const double x = input.window.min_x + i + 0.5, z = input.depth(i, j);
-      const double mv_x = vectors ? input.mv_prev_x(i, j) : kNaN, mv_y = vectors ? input.mv_prev_y(i, j) : kNaN;
-      const Vec3 before = is_surface(z) ? where_it_was(input, x, y, z, mv_x, mv_y, agreement_px) : kUnknown;
+      const double mv_x = vectors ? input.mv_prev_x(i, j) : 0, mv_y = vectors ? input.mv_prev_y(i, j) : 0;
+      const Vec3 before = !is_surface(z) ? kUnknown
+                          : vectors      ? where_it_was(input, x, y, z, mv_x, mv_y, agreement_px)
+                                         : static_surface(input, x, y, z);
       out.x(i, j) = static_cast<float>(before.x);
       out.y(i, j) = static_cast<float>(before.y);
       out.depth(i, j) = static_cast<float>(before.z);

@@ -1,7 +1,10 @@
 #include "core/temporal/selective_temporal.h"
 
 #include <algorithm>
-#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/parallel/rows.h"
@@ -71,13 +74,26 @@ Plane dilate_discontinuities(ConstPlaneView mask, int n) {
   return out;
 }
 
-Plane mask_at_pixels(ConstPlaneView mask, const filter::SampleGrid& grid, const filter::Surface& surface) {
-  const int width = surface.depth.width, shift = std::countr_zero(static_cast<unsigned>(grid.step));
-  Plane out(width, surface.depth.height);
-  for_rows(out.height(), [&](int y) {
-    parent_row({mask.row((y - grid.origin_y) >> shift), mask.width, grid.origin_x, shift, width, out.row(y)});
+double share_without_history(const SelectiveTemporalParams& params, ConstPlaneView depth,
+                             const Reprojected& reprojected, const TemporalHistory& history) {
+  if (history.ao.empty()) return 0;
+  std::vector<int64_t> surface(static_cast<size_t>(depth.height)), lost(surface.size());
+  for_rows(depth.height, [&](int y) {
+    for (int x = 0; x < depth.width; ++x) {
+      if (!(std::isfinite(depth(x, y)) && depth(x, y) > 0)) continue;
+      ++surface[static_cast<size_t>(y)];
+      const float px = std::floor(reprojected.x(x, y)), py = std::floor(reprojected.y(x, y));
+      const Window& w = history.window;
+      const bool inside = px >= static_cast<float>(w.min_x) && px <= static_cast<float>(w.max_x) &&
+                          py >= static_cast<float>(w.min_y) && py <= static_cast<float>(w.max_y);
+      const float stored = inside ? history.depth(static_cast<int>(px) - w.min_x, static_cast<int>(py) - w.min_y) : 0;
+      const bool same = stored > 0 && std::abs(1 - reprojected.depth(x, y) / stored) < params.epsilon;
+      lost[static_cast<size_t>(y)] += same ? 0 : 1;
+    }
   });
-  return out;
+  const auto total = std::accumulate(surface.begin(), surface.end(), int64_t{0});
+  const auto without = std::accumulate(lost.begin(), lost.end(), int64_t{0});
+  return total > 0 ? static_cast<double>(without) / static_cast<double>(total) : 0;
 }
 
 Plane selective_temporal_filter(const SelectiveTemporalParams& params, ConstPlaneView ao, ConstPlaneView depth,

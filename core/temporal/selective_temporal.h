@@ -23,7 +23,7 @@ struct SelectiveTemporalParams {
   static constexpr std::string_view summary = "Battlefield 3's Selective Temporal Filtering of the AO";
   float epsilon = 0.10F;          ///< relative depth difference up to which the surface counts as the same
   float distance_m = 0.1F;        ///< L: neighbours farther apart than this are discontinuous ...
-  float distance_footprints = 3;  ///< ... or than this many pixel footprints (0 in literal presets)
+  float distance_footprints = 3;  ///< ... or than this many footprints of a grid texel (0: the seed literally)
   int dilation_texels = 4;        ///< side of the square that spreads discontinuities, in texels of the AO's grid
   int max_frames = 8;             ///< N_max: 8 gives a new frame at least 1/9 of the weight
   bool selective = true;          ///< false: every pixel is filtered (the plain temporal filter of the slides)
@@ -50,8 +50,11 @@ Plane continuity_mask(const SelectiveTemporalParams& params, const filter::Sampl
 /// the image do not count.
 Plane dilate_discontinuities(ConstPlaneView mask, int n);
 
-/// The grid's mask at every pixel of the surface (parent texel). 1 = stable.
-Plane mask_at_pixels(ConstPlaneView mask, const filter::SampleGrid& grid, const filter::Surface& surface);
+/// Share of the surface pixels, 0 to 1, whose past is not in `history`: unknown, outside its window, or of another
+/// depth (by epsilon, at the nearest pixel). Most of a picture without a past is a cut (algorithms 13). 0 when there is
+/// nothing to compare.
+double share_without_history(const SelectiveTemporalParams& params, ConstPlaneView depth,
+                             const Reprojected& reprojected, const TemporalHistory& history);
 
 /// One step of the filter at full resolution. `history` is that of frame i-1 (empty planes: cleared; its window may
 /// differ in place and size) and becomes that of frame i: history.count is N. Returns the filtered AO. All planes cover

@@ -37,15 +37,21 @@ class MemorySource final : public FrameSource {
   std::function<Frame(int)> make_;
 };
 
-/// Keeps what is written: planes of the beauty and of the added channels, by frame and channel.
+/// Keeps what is written: the beauty inside its data window, and the added channels, by frame and channel.
 class MemorySink final : public FrameSink {
  public:
   void write(int number, const std::vector<Frame>& views) override {
     for (const Frame& view : views) {
-      windows[number] = view.window;
       for (const auto& [name, plane] : view.added) planes[number][name] = copy_of(plane);
-      for (const Layer& layer : view.layers)
-        for (size_t i = 0; i < layer.planes.size(); ++i) planes[number][layer.channels[i]] = copy_of(layer.planes[i]);
+      for (const Layer& layer : view.layers) {
+        windows[number] = layer.data_window;
+        for (size_t i = 0; i < layer.planes.size(); ++i) {
+          Plane written(layer.data_window.width(), layer.data_window.height());
+          copy_at(layer.planes[i], written, view.window.min_x - layer.data_window.min_x,
+                  view.window.min_y - layer.data_window.min_y);
+          planes[number][layer.channels[i]] = std::move(written);
+        }
+      }
     }
   }
   std::map<int, std::map<std::string, Plane>> planes;
@@ -85,6 +91,7 @@ inline Frame blade_frame(int number) {
   beauty.channels = {"R", "G", "B", "A"};
   for (int c = 0; c < 4; ++c) beauty.planes.emplace_back(48, 36, c < 3 ? 0.5F : 1.0F);
   beauty.alpha = 3;
+  beauty.data_window = frame.window;
   beauty.is_beauty = beauty.receives_ao = beauty.receives_blur = true;
   frame.layers.push_back(std::move(beauty));
   frame.planes(Role::velocity_prev).push_back(copy_of(mv));

@@ -177,6 +177,63 @@ TEST(Run, AoOnlyLeavesLayersAlone) {
   EXPECT_TRUE(sink.planes.at(2).contains("AO"));
 }
 
+TEST(ViewPipeline, RefusesToWorkOnAoBehindTheMotionBlur) {
+  preset::Preset preset = preset_of("high-dx11");
+  std::rotate(preset.stages.begin() + 1, preset.stages.end() - 1, preset.stages.end());  // ao, motion_blur, blur, ...
+  EXPECT_NE(message_of([&] { ViewPipeline(preset, "", kEverything, {}); }).find("stands behind a stage that blurs"),
+            std::string::npos);
+}
+
+TEST(ViewPipeline, CameraReprojectionNeedsAPosition) {
+  const preset::Preset preset = preset_of("high-dx11", {"temporal.reprojection=camera"});
+  EXPECT_NE(message_of([&] {
+              ViewPipeline(preset, "", {kEverything.roles, true, false}, {});
+            }).find("where the camera"),
+            std::string::npos);
+}
+
+TEST(Run, ACutStartsTheHistoryAnew) {
+  const auto cut = [](int number) {
+    Frame frame = tests::blade_frame(number);
+    if (number < 4) return frame;
+    for (int y = 0; y < 36; ++y)
+      for (int x = 0; x < 48; ++x) frame.planes(Role::depth)[0](x, y) *= 3;  // another place
+    return frame;
+  };
+  const auto ao_of = [&](int preroll) {
+    return run_blades(preset_of("high-dx11"), {5}, preroll, {"AO", true, {}}, {frames_1_to(5), cut});
+  };
+  EXPECT_TRUE(tests::same_pixels(ao_of(kPrerollAll).planes.at(5).at("AO"), ao_of(1).planes.at(5).at("AO")));
+  EXPECT_FALSE(tests::same_pixels(ao_of(1).planes.at(5).at("AO"), ao_of(0).planes.at(5).at("AO")));
+}
+
+TEST(Run, StagesMarkTheLayersTheyChange) {
+  for (const auto& [id, changes] : {std::pair{"ao", false}, {"motion_blur", true}}) {
+    preset::Preset preset = preset_of("high-current-gen");
+    std::erase_if(preset.stages, [&](const auto& stage) { return stage.id != id; });
+    Frame frame = tests::blade_frame(1);
+    ViewPipeline(preset, "", kEverything, {}).run(frame, nullptr, true, true);
+    EXPECT_EQ(frame.layers.front().changed, changes) << id;
+  }
+}
+
+TEST(Run, OutOfMemoryIsAFailureOfItsFrame) {
+  MemorySource source(frames_1_to(2), [](int number) -> Frame {
+    if (number == 1) throw std::bad_alloc();
+    return tests::blade_frame(number);
+  });
+  std::vector<ViewPipeline> views;
+  views.emplace_back(preset_of("high-dx11"), "", kEverything, Outputs{});
+  MemorySink sink;
+  RunOptions options;
+  options.written = options.on_disk = {1, 2};
+  options.keep_going = true;
+  std::vector<ErrorCode> codes;
+  options.on_error = [&](int, const Error& error) { codes.push_back(error.code()); };
+  EXPECT_EQ(run(views, source, sink, options), 1U);
+  EXPECT_EQ(codes, std::vector<ErrorCode>{ErrorCode::memory});
+}
+
 TEST(Run, KeepGoingReportsTheFrameAndRestartsTheHistory) {
   MemorySource source(frames_1_to(5), [](int number) {
     if (number == 3) throw Error(ErrorCode::data, "frame 3 is damaged");
@@ -219,6 +276,7 @@ Frame cropped_frame(int number) {
     frame.planes(role).emplace_back(8, 8, 0.0F);
   }
   frame.planes(Role::depth).clear();
+  frame.layers.front().data_window = frame.window;
   for (Plane& plane : frame.layers.front().planes) plane = Plane(8, 8, 1.0F);
   return frame;
 }

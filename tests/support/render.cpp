@@ -151,6 +151,7 @@ Frame render(const Scene& scene, double time, const RenderSettings& settings, Ro
   beauty.planes = std::move(shaded.rgba);
   beauty.alpha = 3;
   beauty.receives_ao = beauty.receives_blur = beauty.is_beauty = true;
+  beauty.data_window = frame.window;
   frame.layers.push_back(std::move(beauty));
   return frame;
 }

@@ -9,7 +9,7 @@ namespace {
 
 using temporal::continuity_mask;
 using temporal::dilate_discontinuities;
-using temporal::mask_at_pixels;
+using filter::values_at_pixels;
 using temporal::SelectiveTemporalParams;
 
 const Projection kLens{160, 150, 20.5F, 14, false};
@@ -185,7 +185,7 @@ TEST(Continuity, ASlantedFloorIsStableOnTheLibrarysHalfGrid) {
     filter::Surface surface = surface_of(depth, {60, 60, 32, -28, false});
     surface.origin_x = surface.origin_y = origin;
     const filter::SampleGrid grid = filter::half_grid(surface);
-    const Plane mask = mask_at_pixels(dilate_discontinuities(continuity_mask({}, grid, surface), 4), grid, surface);
+    const Plane mask = values_at_pixels(dilate_discontinuities(continuity_mask({}, grid, surface), 4), grid, surface);
     int stable_blades = 0, unstable_floor = 0;
     for (int y = 0; y < 48; ++y)
       for (int x = 0; x < 64; ++x) {
@@ -205,10 +205,10 @@ TEST(MaskAtPixels, EveryPixelTakesItsParentTexel) {
     const Plane mask =
         plane_of(grid.width(), grid.height(), [](int x, int y) { return noise(x, y) < 0.5F ? 0.0F : 1.0F; });
     const Plane want = plane_of(11, 8, [&](int x, int y) { return mask((x - origin) / 2, (y - origin) / 2); });
-    EXPECT_EQ(different_pixels(mask_at_pixels(mask, grid, surface), want), 0) << origin;
+    EXPECT_EQ(different_pixels(values_at_pixels(mask, grid, surface), want), 0) << origin;
   }
   const Plane full = plane_of(11, 8, [](int x, int y) { return noise(x, y) < 0.5F ? 0.0F : 1.0F; });
-  EXPECT_EQ(different_pixels(mask_at_pixels(full, hand_grid(depth), surface), full), 0);
+  EXPECT_EQ(different_pixels(values_at_pixels(full, hand_grid(depth), surface), full), 0);
 }
 
 }  // namespace

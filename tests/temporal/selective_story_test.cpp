@@ -9,7 +9,7 @@ namespace {
 
 using temporal::continuity_mask;
 using temporal::dilate_discontinuities;
-using temporal::mask_at_pixels;
+using filter::values_at_pixels;
 using temporal::selective_temporal_filter;
 using temporal::SelectiveTemporalParams;
 using temporal::TemporalHistory;
@@ -20,7 +20,7 @@ const Projection kLens{100, 100, 48, 32, false};
 Plane stability(const SelectiveTemporalParams& params, ConstPlaneView depth) {
   const filter::SampleGrid grid = hand_grid(depth);
   const filter::Surface surface = surface_of(depth, kLens);
-  return mask_at_pixels(dilate_discontinuities(continuity_mask(params, grid, surface), params.dilation_texels), grid,
+  return values_at_pixels(dilate_discontinuities(continuity_mask(params, grid, surface), params.dilation_texels), grid,
                         surface);
 }
 
