@@ -8,13 +8,6 @@ namespace aftershade::pipeline {
 
 namespace {
 
-/// The window in which blurred pixels can appear: `reach` pixels around the data, but not past the display window.
-Window blurred_window(const Frame& frame, int reach) {
-  const Window w = frame.window;
-  const Window spread{w.min_x - reach, w.min_y - reach, w.max_x + reach, w.max_y + reach};
-  return intersection(spread, united(frame.display, w));
-}
-
 /// Share of the light below which nobody needs to hear of its loss.
 constexpr double kWorthSaying = 1e-3;
 

@@ -17,12 +17,14 @@ struct Needs {
   RoleSet optional;           ///< roles it uses if they are there
   RoleSet previous;           ///< roles it reads of frame f-1
   bool lens = false;          ///< needs to know the field of view
+  bool position = false;      ///< needs to know where the camera stands
   bool ao = false;            ///< works on AO made by an earlier stage ...
   bool ao_at_pixels = false;  ///< ... which must be at full resolution by then
   bool grid = false;          ///< ... and looks at the pixels that it was evaluated at
   bool makes_ao = false;
   bool makes_ao_at_pixels = false;
   bool layers = false;     ///< changes layers
+  bool window = false;     ///< may change the working window: AO made before it loses its grid
   bool recursive = false;  ///< keeps history: a run starts `preroll` frames early
 };
 

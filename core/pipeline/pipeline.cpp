@@ -80,7 +80,7 @@ ViewPipeline::ViewPipeline(const preset::Preset& preset, std::string view, const
     if (entry.needs.recursive) last_recursive_ = static_cast<int>(stages_.size());
     stages_.push_back(std::move(entry));
   }
-  if (outputs.ao_channel && !ao_at_pixels)
+  if (outputs.ao_channel && !made.ao_at_pixels)
     throw Error(ErrorCode::config, "the AO channel is wanted, but no stage makes AO at full resolution",
                 "choose a preset with AO, or leave out --ao and --ao-only");
 }

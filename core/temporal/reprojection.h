@@ -19,10 +19,10 @@ struct ReprojectionInput {
   ConstPlaneView depth;                      ///< of the frame, metres
   Window window;                             ///< of the planes
   std::optional<CameraReprojection> camera;  ///< now -> before; without it only the vectors are known
+  ConstPlaneView mv_prev_x, mv_prev_y;       ///< pixels, may be empty (data == nullptr) or NaN: unknown
   /// Scattered vectors have holes where nothing of the frame before came: what is seen there was hidden, so it has no past.
   /// Otherwise an unknown vector leaves the word to the camera.
   bool holes_are_invalid = false;
-  ConstPlaneView mv_prev_x, mv_prev_y;       ///< pixels, may be empty (data == nullptr) or NaN: unknown
 };
 
 /// Camera where its motion agrees with the pixel's vector within `agreement_px` (static surfaces: exact depth), the

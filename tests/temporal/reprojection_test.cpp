@@ -64,6 +64,17 @@ ReprojectionInput moving_camera(ConstPlaneView depth) {
   return {depth, kWindow, CameraReprojection::create(kNow.canonical(), kBefore.canonical()), {}, {}};
 }
 
+TEST(Reprojection, AHoleInCarriedVectorsHasNoPast) {
+  const Plane depth = plane_depths(), unknown(kWidth, kHeight, std::numeric_limits<float>::quiet_NaN());
+  ReprojectionInput input = moving_camera(depth);
+  const float by_camera = reproject(input, ReprojectionSource::automatic, 0.5F).x(30, 30);
+  input.mv_prev_x = input.mv_prev_y = unknown;
+  EXPECT_EQ(reproject(input, ReprojectionSource::automatic, 0.5F).x(30, 30), by_camera) << "a file's unknown vector";
+  input.holes_are_invalid = true;
+  EXPECT_TRUE(std::isnan(reproject(input, ReprojectionSource::automatic, 0.5F).x(30, 30)));
+  EXPECT_EQ(reproject(input, ReprojectionSource::camera, 0.5F).x(30, 30), by_camera) << "vectors do not count";
+}
+
 TEST(Reprojection, MovingCameraAgreesWithAnIndependentProjection) {
   const Plane depth = plane_depths();
   const Reprojected got = reproject(moving_camera(depth), ReprojectionSource::automatic, 0.5F);
