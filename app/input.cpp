@@ -8,11 +8,11 @@
 
 namespace aftershade::app {
 
-namespace {
-
 io::HashDigits hash_digits(const std::string& name) {
   return name == "oiio" ? io::HashDigits::oiio : io::HashDigits::one;
 }
+
+namespace {
 
 /// "depth=foo.Z" -> {"depth", "foo.Z"}; the role must exist ("color" is accepted with `color`).
 std::pair<std::string, std::string> split_role(const std::string& text, std::string_view option, bool color) {
@@ -108,11 +108,7 @@ Input open_input(const InputArgs& args) {
   input.source = std::make_unique<io::FileSource>(std::move(options));
   input.source->on_note = [](int frame, const std::string& text) { log().note(cat("frame ", frame, ": ", text)); };
 
-  const std::vector<std::string> views = input.source->views();
-  input.views = args.views.empty() ? views : args.views;
-  for (const std::string& view : input.views)
-    if (std::find(views.begin(), views.end(), view) == views.end())
-      throw Error(ErrorCode::usage, cat(first, " has no view \"", view, "\""), "views: " + join(views, ", "));
+  input.views = args.views.empty() ? input.source->views() : args.views;
   return input;
 }
 

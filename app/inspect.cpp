@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "app/job.h"
-#include "app/log.h"
+#include "app/lengths.h"
 #include "app/statistics.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -68,29 +68,6 @@ Json camera_report(const Frame& frame) {
     report["horizontal_fov_deg"] =
         parse_number(fixed(2 * std::atan(0.5 * frame.display.width() / camera.fx) * 180 / M_PI, 3)).value();
   report["principal_point_px"] = {camera.cx, camera.cy};
-  return report;
-}
-
-/// Every length of the preset in pixels at the median depth; warns of an AO radius that is too small or too large to
-/// work.
-Json lengths_report(const preset::Preset& preset, const Frame& frame, double median_depth_m) {
-  Json report = Json::object();
-  for (const preset::StageDescription& stage : preset.stages) {
-    const void* params = std::visit([](const auto& p) { return static_cast<const void*>(&p); }, stage.params);
-    for (const params::Record& record : preset::table_of(stage.params)) {
-      if (!record.key.ends_with("_m")) continue;
-      const double metres = record.get(params).get<double>();
-      const double pixels = metres * frame.camera->fx / (frame.camera->orthographic ? 1 : median_depth_m);
-      report[stage.id + "." + record.key] = cat(metres, " m, ", fixed(pixels, 1), " px");
-      if (record.key != "radius_m") continue;
-      if (pixels < 1)
-        log().warning(cat(stage.id, ".radius_m is ", fixed(pixels, 2),
-                          " px at the median depth: AO will find nothing; is the unit right (--unit)?"));
-      if (pixels > 0.5 * std::max(frame.display.width(), frame.display.height()))
-        log().warning(cat(stage.id, ".radius_m is ", fixed(pixels, 0),
-                          " px at the median depth, more than half a screen; is the unit right (--unit)?"));
-    }
-  }
   return report;
 }
 

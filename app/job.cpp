@@ -18,10 +18,9 @@ namespace fs = std::filesystem;
 
 /// Where frames go: a pattern with a frame token, a folder, or a file for one frame.
 std::function<std::string(int)> output_paths(const RenderArgs& args, const io::Pattern& input, size_t frames) {
-  const auto hash = args.hash_digits == "oiio" ? io::HashDigits::oiio : io::HashDigits::one;
   if (fs::is_directory(args.output) || args.output.ends_with('/'))
     return [folder = fs::path(args.output), input](int frame) { return (folder / input.name(frame)).string(); };
-  if (const auto pattern = io::parse_pattern(args.output, hash))
+  if (const auto pattern = io::parse_pattern(args.output, hash_digits(args.hash_digits)))
     return [pattern](int frame) { return pattern->path(frame); };
   if (frames > 1)
     throw Error(ErrorCode::usage, cat("-o ", args.output, " names one file, but ", frames, " frames are to be written"),
@@ -90,16 +89,16 @@ int preroll_of(const std::string& text) {
   throw Error(ErrorCode::usage, cat("--preroll ", text, " is not a number of frames"), "a number, or all");
 }
 
-bool has_channel(const io::FileInfo& info, const std::string& name) {
-  for (const io::PartInfo& part : info.parts)
-    for (const io::ChannelInfo& channel : part.channels)
-      if (channel.name == name || channel.name.ends_with("." + name)) return true;
-  return false;
+/// "AO", or kOwnAoChannel in a file that has either in any view.
+std::string ao_channel_for(const io::FileInfo& info) {
+  for (const std::string& view : io::views_of(info))
+    if (has_channel(info, view, "AO") || has_channel(info, view, kOwnAoChannel)) return kOwnAoChannel;
+  return "AO";
 }
 
 pipeline::Outputs outputs_of(const RenderArgs& args, const io::FileInfo& info) {
   pipeline::Outputs outputs;
-  if (args.ao || args.ao_only) outputs.ao_channel = has_channel(info, "AO") ? "aftershade.AO" : "AO";
+  if (args.ao || args.ao_only) outputs.ao_channel = ao_channel_for(info);
   outputs.layers = !args.ao_only;
   outputs.work.diagnostics = args.diagnostics;
   outputs.work.grow_data_window = args.data_window == "grow";
@@ -107,6 +106,13 @@ pipeline::Outputs outputs_of(const RenderArgs& args, const io::FileInfo& info) {
 }
 
 }  // namespace
+
+bool has_channel(const io::FileInfo& info, const std::string& view, const std::string& name) {
+  for (size_t part = 0; part < info.parts.size(); ++part)
+    for (const io::ChannelInfo& channel : info.parts[part].channels)
+      if (io::name_in_view(info, static_cast<int>(part), channel.name, view) == name) return true;
+  return false;
+}
 
 Job resolve_job(const RenderArgs& args) {
   Job job;

@@ -15,8 +15,8 @@ namespace aftershade::app {
 /// An input sequence, opened: profile, camera, channels by role, and the frames asked for.
 struct Input {
   io::FoundSequence found;
-  std::vector<int> frames;  ///< the frames asked for that exist, sorted
-  std::vector<int> holes;   ///< the frames asked for that do not
+  std::vector<int> frames;             ///< the frames asked for that exist, sorted
+  std::vector<int> holes;              ///< the frames asked for that do not
   std::vector<io::Sequence> siblings;  ///< of --role
   io::Detected producer;
   std::string unit;  ///< "m" ..., and where it comes from
@@ -25,8 +25,17 @@ struct Input {
   std::vector<std::string> views;
 };
 
+/// The meaning of --hash-digits "one" or "oiio".
+io::HashDigits hash_digits(const std::string& name);
+
 /// Opens INPUT. Throws for everything that is wrong with it; holes are an error unless --missing skip.
 Input open_input(const InputArgs& args);
+
+/// What the AO is called in a file that already has a channel AO.
+inline constexpr const char* kOwnAoChannel = "aftershade.AO";
+
+/// Does a view of the file have this channel, its view token aside?
+bool has_channel(const io::FileInfo& info, const std::string& view, const std::string& name);
 
 /// What the first frame of a view offers to the stages.
 pipeline::Offer offer_of(const Input& input, const std::string& view);

@@ -24,6 +24,10 @@ struct Option {
   std::string doc;
   std::vector<std::string> choices = {};
   bool required = false;
+  struct Range {
+    int min, max;  ///< both allowed
+  };
+  std::optional<Range> range = {};
 };
 
 /// What documentation needs to know of an option, whatever its command.
@@ -31,11 +35,12 @@ struct OptionText {
   std::string names, value, doc;
 };
 
-/// "one of a, b" for an option with choices.
+/// The documentation with the choices or the range behind it.
 template <class Args>
 OptionText text_of(const Option<Args>& option) {
   std::string doc = option.doc;
   if (!option.choices.empty()) doc += " (" + join(option.choices, ", ") + ")";
+  if (option.range) doc += cat(" (", option.range->min, " to ", option.range->max, ")");
   return {option.names, option.value, doc};
 }
 
@@ -63,6 +68,7 @@ void bind(CLI::App& command, const std::vector<Option<Args>>& table, Args& args)
     };
     CLI::Option* added = std::visit(add, option.member);
     if (!option.choices.empty()) added->check(CLI::IsMember(option.choices));
+    if (option.range) added->check(CLI::Range(option.range->min, option.range->max));
     if (option.required) added->required();
   }
 }

@@ -13,11 +13,6 @@ void add_input(std::vector<Option<Args>>& t) {
                &Args::hash_digits,
                "what one # stands for: one digit, or OpenImageIO's four",
                {"one", "oiio"}});
-  t.push_back({"--missing",
-               "POLICY",
-               &Args::missing,
-               "what to do about holes in the sequence, before frame 1",
-               {"error", "skip"}});
   t.push_back({"--view", "NAME", &Args::views, "a view of a multi-view file; may be repeated; all views by default"});
   t.push_back({"--profile", "NAME|FILE", &Args::profile, "producer profile; recognised from the file by default"});
   t.push_back({"--channel", "ROLE=NAMES", &Args::channels,
@@ -55,7 +50,8 @@ void add_preset(std::vector<Option<Args>>& t) {
 
 template <class Args>
 void add_common(std::vector<Option<Args>>& t) {
-  t.push_back({"--threads", "N", &Args::threads, "threads to use; 0: all that the machine allows"});
+  t.push_back(
+      {"--threads", "N", &Args::threads, "threads to use; 0: all that the machine allows", {}, false, {{0, 1024}}});
   t.push_back({"-q,--quiet", "", &Args::quiet, "errors only"});
   t.push_back({"-v,--verbose", "", &Args::verbose, "says more: stages and their times, every note of every frame"});
 }
@@ -93,6 +89,11 @@ const std::vector<Option<RenderArgs>>& render_options() {
     t.push_back({"--compression", "NAME", &Args::compression,
                  "compression of changed parts: none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa, dwab, or keep; by "
                  "default kept unless lossy"});
+    t.push_back({"--missing",
+                 "POLICY",
+                 &Args::missing,
+                 "what to do about holes in the sequence, before frame 1",
+                 {"error", "skip"}});
     t.push_back({"--existing",
                  "POLICY",
                  &Args::existing,
@@ -137,7 +138,8 @@ const std::vector<Option<SheetArgs>>& sheet_options() {
         {"after", "AFTER", &Args::after, "the sequence after; its AO channel is shown if it has one", {}, true});
     t.push_back({"-o,--output", "FILE.png", &Args::output, "the picture to write", {}, true});
     t.push_back({"--frames", "RANGE", &Args::frames, "frames to show, a row each; first, middle and last by default"});
-    t.push_back({"--cell-width", "PIXELS", &Args::cell_width, "width of one picture in the sheet"});
+    t.push_back(
+        {"--cell-width", "PIXELS", &Args::cell_width, "width of one picture in the sheet", {}, false, {{16, 8192}}});
     t.push_back({"--hash-digits",
                  "MEANING",
                  &Args::hash_digits,
@@ -158,7 +160,7 @@ const std::vector<Option<PresetsArgs>>& presets_options() {
        {"list", "show", "validate", "diff", "schema"},
        true},
       {"names", "NAME|FILE", &PresetsArgs::names, "preset names or files"},
-      {"--set", "ID.KEY=VALUE", &PresetsArgs::sets, "changes one value before showing; may be repeated"},
+      {"--set", "ID.KEY=VALUE", &PresetsArgs::sets, "show: changes one value before showing; may be repeated"},
   };
   return table;
 }

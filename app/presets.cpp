@@ -39,6 +39,8 @@ int diff(const std::string& a, const std::string& b) {
 }  // namespace
 
 int presets(const PresetsArgs& args) {
+  if (!args.sets.empty() && args.action != "show")
+    throw Error(ErrorCode::usage, cat("presets ", args.action, " takes no --set"), "only presets show does");
   if (args.action == "list") return need_names(args, 0, 0, "no name"), list();
   if (args.action == "validate") return need_names(args, 1, 1000, "the files to check"), validate(args.names);
   if (args.action == "diff") return need_names(args, 2, 2, "two names or files"), diff(args.names[0], args.names[1]);

@@ -53,6 +53,12 @@ void apply(const CommonArgs& args) {
   io::set_decoding_threads(thread_count());
 }
 
+/// What printf could not write: a full disk, a closed pipe.
+void check_output() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw Error(ErrorCode::io, "standard output cannot be written to", "check the disk, or the program that reads it");
+}
+
 int parse_and_run(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.empty()) {
@@ -93,7 +99,9 @@ int parse_and_run(int argc, char** argv) {
 int run_program(int argc, char** argv) {
   try {
     install_signal_handlers();
-    return parse_and_run(argc, argv);
+    const int status = parse_and_run(argc, argv);
+    check_output();
+    return status;
   } catch (const Error& error) {
     log().error(error.what());
     return exit_status(error.code());

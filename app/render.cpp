@@ -15,7 +15,7 @@ void print_config(const preset::Resolved& resolved) {
   for (const preset::StageDescription& stage : resolved.preset.stages) {
     std::printf("%s: %s\n", stage.id.c_str(), std::string(preset::method_of(stage.params)).c_str());
     const auto& table = preset::table_of(stage.params);
-    const void* params = std::visit([](const auto& p) { return static_cast<const void*>(&p); }, stage.params);
+    const void* params = preset::values_of(stage.params);
     for (const params::Record& record : table) {
       const std::string key = stage.id + "." + record.key;
       const auto origin = resolved.origins.find(key);
@@ -74,7 +74,10 @@ int run_job(Job& job, const RenderArgs& args) {
     if (status == 0) status = exit_status(error.code());
   };
   run.should_stop = [] { return stop_signal() != 0; };
-  const size_t written = pipeline::run(job.views, *job.input.source, sink, run);
+  const size_t written = [&] {
+    const GracefulStop graceful;
+    return pipeline::run(job.views, *job.input.source, sink, run);
+  }();
   progress.finish();
   log().summarise();
   if (stop_signal() != 0) {

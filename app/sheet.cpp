@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 
 #include "app/job.h"
@@ -10,13 +11,24 @@ namespace aftershade::app {
 
 namespace {
 
-Input open_side(const std::string& input, const SheetArgs& args) {
+Input open_side(const std::string& input, const SheetArgs& args, const std::vector<std::string>& channels = {}) {
   InputArgs side;
+  side.channels = channels;
   side.input = input;
   side.frames = args.frames;
   side.hash_digits = args.hash_digits;
   side.missing = "skip";
   return open_input(side);
+}
+
+/// The sequence after, with the AO that render wrote into it, whatever its producer's profile calls AO.
+Input open_after(const SheetArgs& args) {
+  Input after = open_side(args.after, args);
+  for (const std::string name : {kOwnAoChannel, "AO"}) {
+    const auto has = [&](const std::string& view) { return has_channel(after.source->info(), view, name); };
+    if (std::all_of(after.views.begin(), after.views.end(), has)) return open_side(args.after, args, {"ao=" + name});
+  }
+  return after;
 }
 
 /// First, middle and last of the frames that both sides have.
@@ -63,7 +75,7 @@ preview::Cell ao_cell(const Input& side, int number) {
 }  // namespace
 
 int sheet(const SheetArgs& args) {
-  const Input before = open_side(args.before, args), after = open_side(args.after, args);
+  const Input before = open_side(args.before, args), after = open_after(args);
   const bool with_ao = after.source->available(after.views.front()).contains(Role::ao);
   if (!with_ao) log().note("the sequence after has no AO channel (render with --ao): the sheet shows before and after");
   preview::Sheet sheet;

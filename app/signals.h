@@ -2,9 +2,18 @@
 
 namespace aftershade::app {
 
-/// Installs handlers for SIGINT, SIGTERM and SIGHUP: the first asks the run to stop after the frame at work, a second
-/// one removes temporaries and ends the process by the signal. SIGPIPE and SIGXFSZ become error returns of write().
+/// Installs handlers for SIGINT, SIGTERM and SIGHUP (unless nohup ignores it) that remove temporaries and end the
+/// process by the signal, at once. SIGPIPE and SIGXFSZ become error returns of write().
 void install_signal_handlers();
+
+/// While one lives, the first signal only asks to stop (stop_signal()); a second one ends the process.
+class GracefulStop {
+ public:
+  GracefulStop();
+  ~GracefulStop();
+  GracefulStop(const GracefulStop&) = delete;
+  GracefulStop& operator=(const GracefulStop&) = delete;
+};
 
 /// The signal that asked to stop, or 0.
 int stop_signal();

@@ -33,7 +33,8 @@ std::string join(std::span<const std::string> parts, std::string_view separator)
 
 std::string to_lower(std::string_view text) {
   std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return out;
 }
 
@@ -93,7 +94,8 @@ std::optional<std::string> nearest(std::string_view word, std::span<const std::s
   size_t best_distance = std::max<size_t>(1, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
     const size_t distance = edit_distance(to_lower(word), to_lower(candidate));
-    if (distance < best_distance) best_distance = distance, best = candidate;
+    const bool shares_letters = distance < std::max(word.size(), candidate.size());
+    if (distance < best_distance && shares_letters) best_distance = distance, best = candidate;
   }
   return best;
 }

@@ -20,16 +20,13 @@ std::string text_of(const Json& value) {
   return value.is_number_float() ? cat(value.get<double>()) : value.dump();
 }
 
-Json values_of(const StageDescription& stage) {
-  return std::visit([](const auto& p) { return params::write(p.table(), &p); }, stage.params);
-}
-
 void compare(const StageDescription& a, const StageDescription& b, std::vector<std::string>& lines) {
   if (a.params.index() != b.params.index()) {
     lines.push_back(cat(a.id, ".method: ", method_of(a.params), " -> ", method_of(b.params)));
     return;
   }
-  const Json before = values_of(a), after = values_of(b);
+  const params::Table& table = table_of(a.params);
+  const Json before = params::write(table, values_of(a.params)), after = params::write(table, values_of(b.params));
   for (const auto& [key, value] : before.items())
     if (value != after[key]) lines.push_back(cat(a.id, ".", key, ": ", text_of(value), " -> ", text_of(after[key])));
 }

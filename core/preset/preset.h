@@ -57,6 +57,8 @@ struct MethodInfo {
 };
 std::vector<MethodInfo> methods();
 const params::Table& table_of(const StageParams& params);
+/// The parameter struct inside `params`: what the records of table_of(params) read, as record.get(values_of(params)).
+const void* values_of(const StageParams& params);
 std::string_view method_of(const StageParams& params);
 
 }  // namespace aftershade::preset

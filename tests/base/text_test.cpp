@@ -74,6 +74,13 @@ TEST(Nearest, FindsTypingErrorsOnly) {
   EXPECT_EQ(nearest("x", Strings{}), std::nullopt);
 }
 
+TEST(Nearest, AnotherLetterIsNoTypingError) {
+  EXPECT_EQ(nearest("Z", Strings{"Y"}), std::nullopt);
+  EXPECT_EQ(nearest("", Strings{"Y"}), std::nullopt);
+  EXPECT_EQ(nearest("z", Strings{"Y", "Z"}), "Z");
+  EXPECT_EQ(nearest("a", Strings{"Z", "AO"}), "AO");
+}
+
 TEST(DidYouMean, AsksOrIsSilent) {
   EXPECT_EQ(did_you_mean("radus_m", Strings{"radius_m"}), "did you mean \"radius_m\"?");
   EXPECT_EQ(did_you_mean("brightness", Strings{"radius_m"}), "");

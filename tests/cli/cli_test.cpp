@@ -1,8 +1,8 @@
 // Every folder of tests/cli/cases is a case: `run` is a shell script, `expect` says what must come of it, a line each:
 //   status N | stdout TEXT | stderr TEXT | no-stdout TEXT | no-stderr TEXT | empty stdout|stderr | file PATH | no-file
 //   PATH
-// A case runs in an empty folder with $AFTERSHADE the program and $FIXTURE the sequences of
-// fixture/make_cli_fixture.cpp.
+// A case runs in an empty folder with $AFTERSHADE the program, $FIXTURE the sequences of
+// fixture/make_cli_fixture.cpp, and $COMPARE the program of fixture/compare_channels.cpp.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -40,7 +40,8 @@ Outcome run_case(const std::string& name, const fs::path& folder) {
   fs::remove_all(folder);
   fs::create_directories(folder);
   const std::string command = "cd '" + folder.string() + "' && AFTERSHADE='" + (kBinary / "bin/aftershade").string() +
-                              "' FIXTURE='" + (kBinary / "cli-fixture").string() + "' NO_COLOR=1 sh '" +
+                              "' COMPARE='" + (kBinary / "bin/compare_channels").string() + "' FIXTURE='" +
+                              (kBinary / "cli-fixture").string() + "' NO_COLOR=1 sh '" +
                               (kCases / name / "run").string() + "' > '" + folder.string() + ".out' 2> '" +
                               folder.string() + ".err'";
   const int result = std::system(command.c_str());
