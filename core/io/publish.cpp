@@ -78,6 +78,14 @@ Error cannot_write(const std::string& path, int error) {
   return {ErrorCode::io, cat("cannot write ", path, ": ", std::strerror(error))};
 }
 
+/// A rename would put the file in place of a device such as /dev/null.
+void check_target(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
+    throw Error(ErrorCode::cannot_create, cat("cannot write ", path, ": it is not a regular file"),
+                "name a file that may be replaced, or none");
+}
+
 int create(const std::string& temporary, const Place& place, const std::string& path) {
   const int descriptor = ::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
   if (descriptor >= 0) return descriptor;
@@ -103,6 +111,7 @@ int write_all(int descriptor, std::span<const char> bytes) {
 }  // namespace
 
 void publish(std::span<const char> bytes, const std::string& path) {
+  check_target(path);
   const Place place = place_of(path);
   const std::string temporary = temporary_path(place);
   const Listed listed(temporary);

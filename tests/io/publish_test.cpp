@@ -1,5 +1,6 @@
 #include "core/io/publish.h"
 
+#include <grp.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -7,6 +8,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -60,20 +62,50 @@ TEST(Publish, RefusesAParentThatIsAFile) {
   EXPECT_NE(text.find("Not a directory"), std::string::npos) << text;
 }
 
-TEST(Publish, RefusesAReadOnlyFolder) {
-  if (::geteuid() == 0) GTEST_SKIP() << "SKIPPED: permissions do not bind root";
-  const TempFolder folder;
-  ::chmod(folder.path().c_str(), 0555);
-  std::string text;
-  EXPECT_EQ(code_of_publish("x", folder / "a.exr", text), ErrorCode::cannot_create);
-  ::chmod(folder.path().c_str(), 0755);
+enum Outcome { kPublished = 10, kNotPermitted, kOther };
+
+/// What publishing comes to in a child without root's powers: permissions do not bind root.
+int publish_without_powers(const std::string& path) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    constexpr uid_t kNobody = 65534;
+    if (::geteuid() == 0 && (::setgroups(0, nullptr) != 0 || ::setgid(kNobody) != 0 || ::setuid(kNobody) != 0))
+      ::_exit(1);
+    try {
+      publish(std::string("x"), path);
+      ::_exit(kPublished);
+    } catch (const Error& error) {
+      const bool denied = std::string(error.what()).find("Permission denied") != std::string::npos;
+      ::_exit(error.code() == ErrorCode::cannot_create && denied ? kNotPermitted : kOther);
+    }
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-TEST(Publish, LeavesNothingWhenTheNameIsAFolder) {
+TEST(Publish, RefusesAReadOnlyFolder) {
+  const TempFolder folder;
+  ::chmod(folder.path().c_str(), 0777);
+  ASSERT_EQ(publish_without_powers(folder / "allowed.exr"), kPublished);
+  ::chmod(folder.path().c_str(), 0555);
+  EXPECT_EQ(publish_without_powers(folder / "a.exr"), kNotPermitted);
+  ::chmod(folder.path().c_str(), 0755);
+  EXPECT_EQ(folder.file_count(), 1U);
+}
+
+TEST(Publish, RefusesWhatIsNoRegularFile) {
   const TempFolder folder, inner;
-  std::string text;
-  EXPECT_EQ(code_of_publish("x", inner.path(), text), ErrorCode::io);
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  ASSERT_EQ(::symlink("pipe", (folder / "link").c_str()), 0);
+  for (const std::string& path : {folder / "pipe", folder / "link", inner.path()}) {
+    std::string text;
+    EXPECT_EQ(code_of_publish("x", path, text), ErrorCode::cannot_create);
+    EXPECT_NE(text.find(path + ": it is not a regular file"), std::string::npos) << text;
+  }
+  EXPECT_EQ(folder.file_count(), 2U);
   EXPECT_EQ(inner.file_count(), 0U);
+  EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
 }
 
 /// The exit status of a child whose files may not grow beyond 100000 bytes.
