@@ -1,5 +1,7 @@
 #include "core/io/profile.h"
 
+#include <algorithm>
+
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/json.h"
@@ -44,8 +46,11 @@ std::array<double, 3> scales(const JsonReader& value, int planes) {
 }
 
 void read_depth(const JsonReader& object, Encoding& encoding) {
-  static const std::vector<std::string> kinds{"planar", "ray", "device", "device-reversed", "inverse"};
-  object.optional("kind", [&](const JsonReader& v) { encoding.depth_kind = static_cast<DepthKind>(v.choice(kinds)); });
+  std::vector<std::string> kinds;
+  for (const auto& [name, kind] : kDepthKinds) kinds.emplace_back(name);
+  object.optional("kind", [&](const JsonReader& v) {
+    encoding.depth_kind = kDepthKinds[static_cast<size_t>(v.choice(kinds))].second;
+  });
   object.optional("background_above", [&](const JsonReader& v) { encoding.background_above = v.number(); });
   object.optional("zero_is_background", [&](const JsonReader& v) { encoding.zero_is_background = v.boolean(); });
 }
@@ -167,6 +172,11 @@ std::string file_stem(std::string_view file_name) {
 }
 
 }  // namespace
+
+std::optional<DepthKind> depth_kind_named(std::string_view name) {
+  const auto found = std::ranges::find(kDepthKinds, name, [](const auto& named) { return named.first; });
+  return found == kDepthKinds.end() ? std::nullopt : std::optional(found->second);
+}
 
 std::span<const EmbeddedFile> builtin_profiles() { return profiles::embedded_files(); }
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/embedded.h"
@@ -14,6 +15,14 @@
 namespace aftershade::io {
 
 enum class DepthKind { planar, ray, device, device_reversed, inverse };
+/// Their names in profiles and on the command line.
+inline constexpr std::array<std::pair<std::string_view, DepthKind>, 5> kDepthKinds{
+    {{"planar", DepthKind::planar},
+     {"ray", DepthKind::ray},
+     {"device", DepthKind::device},
+     {"device-reversed", DepthKind::device_reversed},
+     {"inverse", DepthKind::inverse}}};
+std::optional<DepthKind> depth_kind_named(std::string_view name);
 enum class NormalSpace { world, camera };
 enum class VelocityUnit { pixels, screen };  ///< screen: 1 is the whole width or height of the display window
 

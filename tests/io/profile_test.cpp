@@ -103,6 +103,17 @@ TEST(Profiles, ComplaintsNameFileAndKey) {
   EXPECT_NE(complaint("[]").find("must be an object"), std::string::npos);
 }
 
+TEST(Profiles, DepthKindsHaveOneTable) {
+  for (size_t i = 0; i < kDepthKinds.size(); ++i) {
+    const auto& [name, kind] = kDepthKinds[i];
+    EXPECT_EQ(static_cast<size_t>(kind), i) << "each kind once";
+    EXPECT_EQ(depth_kind_named(name), kind);
+    const std::string json = R"({"depth": [{"channels": "Z", "kind": ")" + std::string(name) + R"("}]})";
+    EXPECT_EQ(only(parse_profile(json, "own.json"), Role::depth).encoding.depth_kind, kind);
+  }
+  EXPECT_FALSE(depth_kind_named("plane"));
+}
+
 TEST(Profiles, UnknownNameSuggests) {
   try {
     load_profile("blendr");
