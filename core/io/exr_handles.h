@@ -17,16 +17,23 @@ namespace aftershade::io {
 /// The OpenEXR objects of an open file. The order of the members is the order in which they need each other.
 struct ExrReader::Handles {
   FileInfo info;
+  ReadLimits limits;
   FileBytes bytes;
   ExrLayout layout;
   SourceStream stream;
   std::unique_ptr<Imf::MultiPartInputFile> file;
 
-  explicit Handles(const std::string& path) : bytes(path), stream(bytes, path) { info.path = path; }
+  Handles(const std::string& path, const ReadLimits& read_limits)
+      : limits(read_limits), bytes(path), stream(bytes, path) {
+    info.path = path;
+  }
 };
 
 /// "part beauty of shot.0001.exr", or the path alone when the file has one part without a name.
 std::string part_text(const FileInfo& info, int part);
+
+/// What OpenEXR says, without the file's name in quotes: the message around it names the file.
+std::string reason(const std::exception& error);
 
 /// Runs `work`; whatever OpenEXR throws becomes an Error that starts with `subject` (a file, or a part of one).
 template <class Work>
@@ -38,7 +45,7 @@ auto guarded(const std::string& subject, Work&& work) {
   } catch (const std::bad_alloc&) {
     throw Error(ErrorCode::memory, cat(subject, " needs more memory than there is"));
   } catch (const std::exception& error) {
-    throw Error(ErrorCode::data, cat(subject, " is damaged: ", error.what()), "render or copy it again");
+    throw Error(ErrorCode::data, cat(subject, " is damaged: ", reason(error)), "render or copy it again");
   }
 }
 

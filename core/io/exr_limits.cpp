@@ -37,10 +37,9 @@ void check_channels(const RawPart& part, const std::string& text, int most) {
 
 void check_size(const RawPart& part, const std::string& text, const ReadLimits& limits, int64_t file_size) {
   const Geometry& geometry = part.geometry;
+  check_window(geometry.window, text, limits);
   const int64_t width = geometry.window.width(), height = geometry.window.height();
   const std::string size = cat(width, "x", height);
-  if (width > limits.max_width || height > limits.max_height)
-    refuse(text, cat("is ", size, " pixels, larger than ", limits.max_width, "x", limits.max_height));
   const int64_t pixel = part.bytes_per_pixel(), bytes = width * height * pixel;
   if (bytes > limits.max_frame_bytes)
     refuse(text, cat("holds ", bytes >> 20, " MiB of pixels, more than ", limits.max_frame_bytes >> 20, " MiB"));
@@ -62,6 +61,13 @@ void check_chunk_count(const RawPart& part, const std::string& text) {
 }
 }  // namespace
 
+void check_window(Window window, std::string_view what, const ReadLimits& limits) {
+  const int64_t width = int64_t{window.max_x} - window.min_x + 1, height = int64_t{window.max_y} - window.min_y + 1;
+  if (width > limits.max_width || height > limits.max_height)
+    refuse(std::string(what),
+           cat("is ", width, "x", height, " pixels, larger than ", limits.max_width, "x", limits.max_height));
+}
+
 void check_parts(const ExrLayout& layout, const ReadLimits& limits, int64_t file_size, const FileInfo& info) {
   if ((layout.version & ExrLayout::kDeep) != 0 && !layout.multi_part() && layout.parts[0].type.empty())
     refuse(info.path, "is deep; only flat images can be read", "flatten it first");
@@ -73,6 +79,7 @@ void check_parts(const ExrLayout& layout, const ReadLimits& limits, int64_t file
     check_size(part, text, limits, file_size);
     if (layout.multi_part()) check_chunk_count(part, text);
   }
+  check_window(info.display_window, cat("the displayWindow of ", info.path), limits);
 }
 
 }  // namespace aftershade::io

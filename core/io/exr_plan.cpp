@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "core/io/exr_limits.h"
+
 namespace aftershade::io {
 
 namespace {
@@ -11,13 +13,6 @@ const CompressionInfo& info_of(int compression) { return kCompressions[static_ca
 std::string part_label(const RawPart& part, size_t index, size_t count) {
   if (count == 1) return "";
   return part.name.empty() ? cat("part ", index, ": ") : cat("part ", part.name, ": ");
-}
-
-void check_compression(const std::optional<std::string>& wanted) {
-  if (!wanted || *wanted == "keep" || compression_from_name(*wanted)) return;
-  std::string names;
-  for (const CompressionInfo& known : kCompressions) names += cat(known.name, ", ");
-  throw Error(ErrorCode::usage, cat("unknown compression \"", *wanted, "\""), cat("one of ", names, "keep"));
 }
 
 /// The compression of a part that is encoded again: the source's, ZIP in place of a lossy one, or what the user wants.
@@ -36,23 +31,24 @@ void drop_stale(RawHeader& header, const std::string& label, std::vector<std::st
     notes.push_back(cat(label, "attribute acesImageContainerFlag dropped: the file is no longer an ACES container"));
 }
 
-void check_write(const ExrReader::Handles& source, const ChannelWrite& write) {
+void check_write(const ExrReader::Handles& source, const ChannelWrite& write, bool may_exist) {
   const auto fail = [&](std::string_view what) {
     throw Error(ErrorCode::internal, cat("channel ", write.channel, " of ", part_text(source.info, write.part), what));
   };
   if (write.part < 0 || static_cast<size_t>(write.part) >= source.info.parts.size()) fail(": there is no such part");
   const PartInfo& part = source.info.parts[static_cast<size_t>(write.part)];
   const bool exists = part.find(write.channel) != nullptr;
-  if (write.is_new && exists) fail(" is to be added but exists");
+  if (write.is_new && exists && !may_exist) fail(" is to be added but exists");
   if (!write.is_new && !exists) fail(" is to be changed but does not exist");
   if (write.pixels.width < write.window.width() || write.pixels.height < write.window.height())
     fail(": the pixels do not cover their window");
 }
 
-Window window_of(const PlannedPart& part, DataWindowPolicy policy) {
+Window window_of(const PlannedPart& part, const ExrReader::Handles& source, DataWindowPolicy policy) {
   Window window = part.geometry.window;
   if (policy == DataWindowPolicy::grow)
     for (const PlannedPart::Write& write : part.writes) window = united(window, write.write->window);
+  check_window(window, cat("the new dataWindow of ", part_text(source.info, part.source_part)), source.limits);
   return window;
 }
 
@@ -89,7 +85,7 @@ Plan plan_all_parts(const ExrReader::Handles& source, std::span<const ChannelWri
       for (const PlannedPart::Write& write : part.writes)
         if (write.write->is_new) part.channels.push_back(RawChannel{write.channel});
       std::ranges::sort(part.channels, {}, &RawChannel::name);  // OpenEXR encodes them in this order
-      part.geometry.window = window_of(part, options.data_window);
+      part.geometry.window = window_of(part, source, options.data_window);
       part.geometry.compression = choose_compression(part.geometry.compression, options.compression, label, plan.notes);
       update_header(part, parts[i].geometry, part.channels != parts[i].channels);
     }
@@ -128,7 +124,7 @@ Plan plan_new_channels(const ExrReader::Handles& source, std::span<const Channel
   for (const std::string_view name : {"name", "type", "chunkCount", "view", "multiView", "tiles"})
     part.header.erase(name);
   drop_stale(part.header, "", plan.notes);
-  part.geometry.window = window_of(part, options.data_window);
+  part.geometry.window = window_of(part, source, options.data_window);
   part.geometry.compression = choose_compression(part.geometry.compression, options.compression, "", plan.notes);
   part.geometry.tile_width = part.geometry.tile_height = part.geometry.line_order = 0;
   update_header(part, raw.geometry, true);
@@ -149,9 +145,16 @@ uint32_t long_names_flag(const Plan& plan) {
 }
 }  // namespace
 
+void check_compression(const std::string& name) {
+  if (name == "keep" || compression_from_name(name)) return;
+  std::string names;
+  for (const CompressionInfo& known : kCompressions) names += cat(known.name, ", ");
+  throw Error(ErrorCode::usage, cat("unknown compression \"", name, "\""), cat("one of ", names, "keep"));
+}
+
 Plan plan_output(const ExrReader::Handles& source, std::span<const ChannelWrite> writes, const WriteOptions& options) {
-  check_compression(options.compression);
-  for (const ChannelWrite& write : writes) check_write(source, write);
+  if (options.compression) check_compression(*options.compression);
+  for (const ChannelWrite& write : writes) check_write(source, write, options.only_new_channels);
   Plan plan =
       options.only_new_channels ? plan_new_channels(source, writes, options) : plan_all_parts(source, writes, options);
   plan.version |= long_names_flag(plan);

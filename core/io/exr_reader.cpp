@@ -65,7 +65,7 @@ void describe(const ExrLayout& layout, FileInfo& info) {
 
 std::unique_ptr<ExrReader::Handles> open(const std::string& path, const ReadLimits& limits) {
   limit_openexr();
-  auto handles = std::make_unique<ExrReader::Handles>(path);
+  auto handles = std::make_unique<ExrReader::Handles>(path, limits);
   guarded(path, [&] {
     handles->layout = parse_headers(handles->bytes, path, limits.max_parts);
     describe(handles->layout, handles->info);
@@ -134,6 +134,16 @@ std::string part_text(const FileInfo& info, int part) {
   const std::string& name = info.parts[static_cast<size_t>(part)].name;
   if (!name.empty()) return cat("part ", name, " of ", info.path);
   return info.parts.size() == 1 ? info.path : cat("part ", part, " of ", info.path);
+}
+
+std::string reason(const std::exception& error) {
+  std::string text = error.what();
+  for (size_t open = text.find(" \""); open != std::string::npos; open = text.find(" \"", open)) {
+    const size_t close = text.find('"', open + 2);
+    if (close == std::string::npos) break;
+    text.erase(open, close + 1 - open);
+  }
+  return text;
 }
 
 Imf::Slice slice(Imf::PixelType type, void* data, Window window, size_t x_stride, size_t y_stride) {

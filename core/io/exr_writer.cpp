@@ -128,7 +128,7 @@ void check_complete(std::span<const char> bytes, const std::string& path) {
     for (int part = 0; part < file.parts(); ++part)
       if (!file.partComplete(part)) throw Iex::InputExc("chunks are missing");
   } catch (const std::exception& error) {
-    throw Error(ErrorCode::internal, cat("the file made for ", path, " is not valid: ", error.what()));
+    throw Error(ErrorCode::internal, cat("the file made for ", path, " is not valid: ", reason(error)));
   }
 }
 }  // namespace

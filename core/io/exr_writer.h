@@ -19,13 +19,17 @@ struct ChannelWrite {
   bool is_new = false;  ///< new channels are half
 };
 
+/// Throws Error(usage) unless `name` is "keep" or a compression: none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa,
+/// dwab.
+void check_compression(const std::string& name);
+
 enum class DataWindowPolicy { keep, grow };
 
 struct WriteOptions {
   std::optional<std::string> compression;  ///< for changed parts; "keep" keeps a lossy one; default: see write_exr
   DataWindowPolicy data_window =
       DataWindowPolicy::keep;      ///< grow: changed parts cover the union of their writes' windows
-  bool only_new_channels = false;  ///< --ao-only: a single-part file with the new channels alone
+  bool only_new_channels = false;  ///< --ao-only: a single-part file with the new channels alone, whatever `source` has
 };
 
 /// Writes `source` again with the given channels changed. Everything else stays exactly: channels, parts, types,

@@ -290,9 +290,9 @@ TEST(ExrReader, RefusesBombsQuickly) {
   const TempFolder folder;
   tests::make_exr(folder / "a.exr", {mixed()});
   const std::string bytes = tests::read_file(folder / "a.exr");
-  const auto with_window = [&](Window window) {
+  const auto with_window = [&](Window window, const std::string& name = "dataWindow") {
     std::string out = bytes;
-    const size_t at = out.find(std::string("dataWindow\0box2i\0", 17)) + 17 + 4;
+    const size_t at = out.find(name + std::string("\0box2i\0", 7)) + name.size() + 7 + 4;
     std::memcpy(out.data() + at, &window, sizeof window);
     tests::write_file(folder / "b.exr", out);
     return read_all(folder / "b.exr");
@@ -300,6 +300,10 @@ TEST(ExrReader, RefusesBombsQuickly) {
   const auto start = std::chrono::steady_clock::now();
   expect_refused(with_window({0, 0, 100000000, 0}), ErrorCode::data, folder / "b.exr", "larger than");
   expect_refused(with_window({-2000000000, 0, 2000000000, 0}), ErrorCode::data, folder / "b.exr", "valid window");
+  constexpr int kFar = 1 << 30;
+  expect_refused(with_window({-kFar, -kFar, kFar, kFar}), ErrorCode::data, folder / "b.exr", "2147483649x2147483649");
+  expect_refused(with_window({0, 0, kFar - 2, kFar - 2}, "displayWindow"), ErrorCode::data,
+                 "displayWindow of " + folder / "b.exr", "1073741823x1073741823");
   expect_refused(with_window({0, 0, 65535, 65535}), ErrorCode::data, folder / "b.exr", "MiB");
   expect_refused(with_window({0, 0, 16383, 16383}), ErrorCode::data, folder / "b.exr", "cannot");
   expect_refused(with_window({5, 5, 4, 4}), ErrorCode::data, folder / "b.exr", "empty");

@@ -254,6 +254,12 @@ TEST_F(ExrWriter, ObeysTheCompressionOption) {
   }
 }
 
+TEST(CheckCompression, KnowsTheNames) {
+  for (const char* name : {"keep", "none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"})
+    EXPECT_NO_THROW(check_compression(name));
+  for (const char* name : {"", "ZIP ", "jpeg"}) EXPECT_THROW(check_compression(name), Error);
+}
+
 TEST_F(ExrWriter, GrowsTheDataWindowOfChangedPartsOnly) {
   for (const bool tiled : {false, true}) {
     PartSpec a = mixed("a", Imf::ZIP_COMPRESSION, tiled), b = mixed("b", Imf::ZIP_COMPRESSION, tiled);
