@@ -17,9 +17,11 @@ struct DepthContext {
   double metres_per_unit = 1;
   Window window;  ///< absolute pixels of the plane
 };
+/// Throws Error(data) for ray distance without a lens, Error(usage) for device depth without near and far.
+void check_depth(const Encoding& encoding, const DepthContext& context);
 /// Stored depth to planar metres; +inf where there is background, no number or nothing in front of the camera. Depth
-/// whose median is negative is turned round first (producers that write camera-space z looking along -Z). Throws
-/// Error(data) for ray distance without a lens, Error(usage) for device depth without near and far.
+/// whose median is negative is turned round first (producers that write camera-space z looking along -Z). Throws what
+/// check_depth throws.
 void convert_depth(PlaneView depth, const Encoding& encoding, const DepthContext& context);
 
 /// Stored normals to unit vectors in camera space that face the camera; (0, 0, 0) where there is none (shorter than

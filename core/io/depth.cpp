@@ -15,7 +15,9 @@ constexpr double kBackground = std::numeric_limits<double>::infinity();
 
 bool is_device(DepthKind kind) { return kind == DepthKind::device || kind == DepthKind::device_reversed; }
 
-void check(const Encoding& encoding, const DepthContext& context) {
+}  // namespace
+
+void check_depth(const Encoding& encoding, const DepthContext& context) {
   if (encoding.depth_kind == DepthKind::ray && !context.camera)
     throw Error(ErrorCode::data,
                 "the depth is the distance along the view ray, and without a camera it cannot become planar",
@@ -28,6 +30,8 @@ void check(const Encoding& encoding, const DepthContext& context) {
     throw Error(ErrorCode::usage, "the far plane must lie beyond the near plane, and both before the camera",
                 "check --near and --far");
 }
+
+namespace {
 
 bool is_background(double stored, const Encoding& encoding) {
   return !(std::abs(stored) < encoding.background_above) || (encoding.zero_is_background && stored == 0);
@@ -68,7 +72,7 @@ double planar(double value, DepthKind kind, double ray_length, double near_plane
 }  // namespace
 
 void convert_depth(PlaneView depth, const Encoding& encoding, const DepthContext& context) {
-  check(encoding, context);
+  check_depth(encoding, context);
   const bool turn = !is_device(encoding.depth_kind) && is_negative(depth, encoding);
   const bool by_ray = encoding.depth_kind == DepthKind::ray && !context.camera->orthographic;
   const double near_plane = context.near_plane.value_or(0), far_plane = context.far_plane.value_or(0);

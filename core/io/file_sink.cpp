@@ -9,39 +9,44 @@ namespace aftershade::io {
 
 namespace {
 
-/// The part that a view's new channels go to: the beauty's, else the view's first.
-int part_of_view(const FileInfo& info, const Frame& frame) {
-  for (const Layer& layer : frame.layers)
-    if (layer.is_beauty) return layer.part;
-  for (size_t part = 0; part < info.parts.size(); ++part)
-    if (info.parts[part].view == frame.view) return static_cast<int>(part);
-  return 0;
+bool has(const std::vector<ChannelWrite>& writes, int part, const std::string& channel) {
+  return std::ranges::any_of(writes, [&](const ChannelWrite& w) { return w.part == part && w.channel == channel; });
+}
+
+/// The pixels of `wanted` that a plane of the frame has.
+ChannelWrite write_of(int part, const std::string& channel, const Frame& frame, ConstPlaneView plane, Window wanted) {
+  ChannelWrite write{.part = part, .channel = channel, .pixels = {}, .window = intersection(frame.window, wanted)};
+  if (!write.window.empty())
+    write.pixels = {plane.row(write.window.min_y - frame.window.min_y) + (write.window.min_x - frame.window.min_x),
+                    write.window.width(), write.window.height(), plane.stride};
+  return write;
 }
 
 /// A layer that is common to several views is written once.
-bool has(const std::vector<ChannelWrite>& writes, int part, const std::string& channel) {
-  return std::any_of(writes.begin(), writes.end(),
-                     [&](const ChannelWrite& w) { return w.part == part && w.channel == channel; });
+void add_layers(const Frame& frame, std::vector<ChannelWrite>& writes) {
+  for (const Layer& layer : frame.layers)
+    for (size_t i = 0; layer.changed && i < layer.planes.size(); ++i)
+      if (!has(writes, layer.part, layer.channels[i]))
+        writes.push_back(write_of(layer.part, layer.channels[i], frame, layer.planes[i], layer.data_window));
 }
 
-void add_writes(const FileInfo& info, const Frame& frame, std::vector<ChannelWrite>& writes) {
-  for (const Layer& layer : frame.layers) {
-    if (!layer.receives_ao && !layer.receives_blur) continue;
-    for (size_t i = 0; i < layer.planes.size(); ++i)
-      if (!has(writes, layer.part, layer.channels[i]))
-        writes.push_back({.part = layer.part,
-                          .channel = layer.channels[i],
-                          .pixels = layer.planes[i],
-                          .window = frame.window,
-                          .is_new = false});
+/// The data window of Frame::part, or what the beauty makes of it.
+Window window_of_added(const PartInfo& part, const Frame& frame) {
+  Window window = part.data_window;
+  for (const Layer& layer : frame.layers)
+    if (layer.is_beauty && layer.changed && layer.part == frame.part) window = united(window, layer.data_window);
+  return window;
+}
+
+/// `alone`: the file will have the added channels alone, so that none of them exists.
+void add_channels(const FileInfo& info, const Frame& frame, bool alone, std::vector<ChannelWrite>& writes) {
+  const PartInfo& part = info.parts.at(static_cast<size_t>(frame.part));
+  for (const auto& [name, plane] : frame.added) {
+    std::string channel = name_for_view(info, name, frame.view);
+    if (has(writes, frame.part, channel)) channel = cat(frame.view, ".", channel);  // several views in one part
+    writes.push_back(write_of(frame.part, channel, frame, plane, window_of_added(part, frame)));
+    writes.back().is_new = alone || part.find(channel) == nullptr;
   }
-  const int part = part_of_view(info, frame);
-  for (const auto& [name, plane] : frame.added)
-    writes.push_back({.part = part,
-                      .channel = name_for_view(info, name, frame.view),
-                      .pixels = plane,
-                      .window = frame.window,
-                      .is_new = true});
 }
 
 }  // namespace
@@ -53,9 +58,10 @@ void FileSink::write(int number, const std::vector<Frame>& views) {
   if (!source) throw Error(ErrorCode::internal, cat("frame ", number, " has no source file"));
   const std::string target = options_.path(number);
   with_context(cat("frame ", number, " (", target, ")"), [&] {
-    const ExrReader file(*source);
+    const ExrReader file(*source, options_.limits);
     std::vector<ChannelWrite> writes;
-    for (const Frame& frame : views) add_writes(file.info(), frame, writes);
+    for (const Frame& frame : views) add_layers(frame, writes);
+    for (const Frame& frame : views) add_channels(file.info(), frame, options_.write.only_new_channels, writes);
     for (const std::string& note : write_exr(file, writes, target, options_.write))
       if (options_.on_note) options_.on_note(number, note);
   });

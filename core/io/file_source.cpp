@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <limits>
-#include <set>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/channel_names.h"
 #include "core/io/conversions.h"
+#include "core/io/exr_limits.h"
 #include "core/io/source_state.h"
 
 namespace aftershade::io {
@@ -31,22 +31,25 @@ std::optional<float> shutter_angle(const ExrReader& file) {
 struct FileSource::State {
   SourceOptions options;
   Resolved resolved;
-  std::mutex mutex;
-  std::set<std::string> said;
 
   const ViewState& view(const std::string& name) const;
-  bool is_new(const std::string& note);
   void check(const FileInfo& frame, const ViewState& view) const;
   /// Files of one frame: the frame's own, and those of the siblings that hold roles.
   struct Files {
     explicit Files(ExrReader own) : frame(std::move(own)) {}
-    const ExrReader& of(int sibling) const { return sibling < 0 ? frame : *siblings.at(sibling); }
+    const ExrReader* find(int sibling) const {
+      if (sibling < 0) return &frame;
+      const auto found = siblings.find(sibling);
+      return found == siblings.end() ? nullptr : found->second.get();
+    }
     ExrReader frame;
     std::map<int, std::unique_ptr<ExrReader>> siblings;
   };
-  void open_sibling(Files& files, const RoleBinding& binding, int number) const;
-  Frame empty_frame(const ExrReader& file, int number, const std::string& view, std::vector<std::string>& notes) const;
-  std::vector<const RoleBinding*> prepare_roles(Frame& frame, const ViewState& offer, RoleSet asked, Files& files,
+  void open_siblings(Files& files, const ViewState& offer, RoleSet asked, int number) const;
+  void open_sibling(Files& files, const RoleBinding& binding, const std::string& path) const;
+  Window working_window(const Files& files, const ViewState& offer) const;
+  Frame empty_frame(const Files& files, int number, const std::string& view, std::vector<std::string>& notes) const;
+  std::vector<const RoleBinding*> prepare_roles(Frame& frame, const ViewState& offer, RoleSet asked, const Files& files,
                                                 PlaneReader& reader, std::vector<std::string>& notes) const;
   void convert(Frame& frame, const RoleBinding& binding) const;
 };
@@ -61,13 +64,9 @@ const ViewState& FileSource::State::view(const std::string& name) const {
   throw Error(ErrorCode::usage, cat("there is no view \"", name, "\""), "views are " + join(views, ", "));
 }
 
-bool FileSource::State::is_new(const std::string& note) {
-  const std::lock_guard lock(mutex);
-  return said.insert(note).second;
-}
-
 void FileSource::State::check(const FileInfo& frame, const ViewState& view_state) const {
   check_same_shape(frame, resolved.first);
+  check_part(frame, resolved.first, view_state.part);
   for (const RoleBinding& binding : view_state.roles)
     for (const ChannelRef& ref : binding.channels)
       if (binding.sibling < 0) check_channel(frame, resolved.first, ref, aftershade::info(binding.role).name);
@@ -76,28 +75,58 @@ void FileSource::State::check(const FileInfo& frame, const ViewState& view_state
       check_channel(frame, resolved.first, ref, layer.binding.is_beauty ? "colour" : layer.binding.layer);
 }
 
-void FileSource::State::open_sibling(Files& files, const RoleBinding& binding, int number) const {
-  if (binding.sibling < 0 || files.siblings.contains(binding.sibling)) return;
+/// All that the frame has, because their windows count whatever is loaded; those of roles asked for must be there.
+void FileSource::State::open_siblings(Files& files, const ViewState& offer, RoleSet asked, int number) const {
+  for (const RoleBinding& binding : offer.roles) {
+    if (binding.sibling < 0 || !offer.available.contains(binding.role)) continue;
+    const Sequence& sequence = options.siblings[static_cast<size_t>(binding.sibling)].sequence;
+    const std::string* path = sequence.path(number);
+    if (path)
+      open_sibling(files, binding, *path);
+    else if (asked.contains(binding.role))
+      throw Error(ErrorCode::no_input,
+                  cat("the sequence of --role ", aftershade::info(binding.role).name, " has no frame ", number),
+                  cat("it has ", format_frames(sequence.frames())));
+  }
+}
+
+void FileSource::State::open_sibling(Files& files, const RoleBinding& binding, const std::string& path) const {
   const auto index = static_cast<size_t>(binding.sibling);
-  const std::string* path = options.siblings[index].sequence.path(number);
   const std::string role(aftershade::info(binding.role).name);
-  if (!path)
-    throw Error(ErrorCode::no_input, cat("the sequence of --role ", role, " has no frame ", number),
-                cat("it has ", format_frames(options.siblings[index].sequence.frames())));
-  with_context(cat("--role ", role, " (", *path, ")"), [&] {
-    auto file = std::make_unique<ExrReader>(*path, options.limits);
+  with_context(cat("--role ", role, " (", path, ")"), [&] {
+    auto file = std::make_unique<ExrReader>(path, options.limits);
     check_same_shape(file->info(), resolved.first);
     for (const ChannelRef& ref : binding.channels) check_channel(file->info(), resolved.siblings[index], ref, role);
     files.siblings[binding.sibling] = std::move(file);
   });
 }
 
-/// What the header says, without pixels.
-Frame FileSource::State::empty_frame(const ExrReader& file, int number, const std::string& view_name,
+/// The union of the windows of everything that the view could load from these files, and of the part that added
+/// channels go to.
+Window FileSource::State::working_window(const Files& files, const ViewState& offer) const {
+  Window window = data_window(files.frame, offer.part);
+  for (const RoleBinding& binding : offer.roles)
+    if (const ExrReader* file = files.find(binding.sibling); file && offer.available.contains(binding.role))
+      for (const ChannelRef& ref : binding.channels) window = united(window, data_window(*file, ref.part));
+  for (const LayerChoice& layer : offer.layers)
+    for (const ChannelRef& ref : layer.binding.channels) window = united(window, data_window(files.frame, ref.part));
+  constexpr std::string_view kWhat = "the union of all data windows";
+  check_window(window, kWhat, options.limits);
+  if (int64_t{window.width()} * window.height() > options.limits.max_frame_bytes / int64_t{sizeof(float)})
+    throw Error(ErrorCode::data, cat(kWhat, " is ", window_text(window), ", too large for ",
+                                     options.limits.max_frame_bytes >> 20, " MiB"));
+  return window;
+}
+
+/// What the headers say, without pixels.
+Frame FileSource::State::empty_frame(const Files& files, int number, const std::string& view_name,
                                      std::vector<std::string>& notes) const {
+  const ExrReader& file = files.frame;
   Frame frame;
   frame.number = number;
   frame.view = view_name;
+  frame.part = view(view_name).part;
+  frame.window = working_window(files, view(view_name));
   frame.display = file.info().display_window;
   frame.pixel_aspect = file.info().pixel_aspect;
   frame.shutter_angle_deg = shutter_angle(file);
@@ -111,9 +140,9 @@ Frame FileSource::State::empty_frame(const ExrReader& file, int number, const st
   return frame;
 }
 
-/// The roles that will be read: their files opened, their planes registered with `reader`, not yet allocated.
+/// The roles that will be read: their planes registered with `reader`, not yet allocated.
 std::vector<const RoleBinding*> FileSource::State::prepare_roles(Frame& frame, const ViewState& offer, RoleSet asked,
-                                                                 Files& files, PlaneReader& reader,
+                                                                 const Files& files, PlaneReader& reader,
                                                                  std::vector<std::string>& notes) const {
   std::vector<const RoleBinding*> roles;
   for (const RoleBinding& binding : offer.roles) {
@@ -122,24 +151,20 @@ std::vector<const RoleBinding*> FileSource::State::prepare_roles(Frame& frame, c
       notes.push_back("the normals are in world space; without the camera's position they are not used");
       continue;
     }
-    open_sibling(files, binding, frame.number);
     roles.push_back(&binding);
     auto& planes = frame.planes(binding.role);
     planes.resize(binding.channels.size());
     for (size_t i = 0; i < planes.size(); ++i)
-      reader.add(files.of(binding.sibling), binding.channels[i], planes[i], binding.role == Role::depth);
+      reader.add(*files.find(binding.sibling), binding.channels[i], planes[i], binding.role == Role::depth);
   }
   return roles;
 }
 
 void FileSource::State::convert(Frame& frame, const RoleBinding& binding) const {
   auto& planes = frame.planes(binding.role);
-  DepthContext depth{frame.camera, options.near_plane, options.far_plane, options.metres_per_unit, frame.window};
-  if (frame.camera && frame.camera->near_m) depth.near_plane = *frame.camera->near_m / options.metres_per_unit;
-  if (frame.camera && frame.camera->far_m) depth.far_plane = *frame.camera->far_m / options.metres_per_unit;
   switch (binding.role) {
     case Role::depth:
-      return convert_depth(planes[0], binding.encoding, depth);
+      return convert_depth(planes[0], binding.encoding, depth_context(options, frame.camera, frame.window));
     case Role::normal:
       return convert_normals(planes, binding.encoding, frame.camera, frame.window);
     case Role::velocity_prev:
@@ -154,7 +179,7 @@ void FileSource::State::convert(Frame& frame, const RoleBinding& binding) const 
 
 namespace {
 
-/// Empty layers and planes of the frame's window, registered with `reader`.
+/// Layers whose planes are registered with `reader`, not yet allocated.
 void prepare_layers(Frame& frame, const ViewState& view, const ExrReader& file, PlaneReader& reader) {
   if (view.layers.empty())
     throw Error(
@@ -166,9 +191,11 @@ void prepare_layers(Frame& frame, const ViewState& view, const ExrReader& file, 
                 .planes = std::vector<Plane>(choice.binding.channels.size()),
                 .alpha = choice.binding.alpha,
                 .part = choice.binding.channels.front().part,
+                .data_window = data_window(file, choice.binding.channels.front().part),
                 .receives_ao = choice.ao,
                 .receives_blur = choice.blur,
-                .is_beauty = choice.binding.is_beauty};
+                .is_beauty = choice.binding.is_beauty,
+                .changed = false};
     for (const ChannelRef& ref : choice.binding.channels) layer.channels.push_back(ref.channel);
     frame.layers.push_back(std::move(layer));
   }
@@ -202,18 +229,17 @@ std::optional<Frame> FileSource::load(int number, const std::string& view, RoleS
     State::Files files{ExrReader(*path, state.options.limits)};
     state.check(files.frame.info(), offer);
     std::vector<std::string> notes;
-    Frame frame = state.empty_frame(files.frame, number, view, notes);
+    state.open_siblings(files, offer, asked, number);
+    Frame frame = state.empty_frame(files, number, view, notes);
     PlaneReader reader;
     const auto roles = state.prepare_roles(frame, offer, asked, files, reader, notes);
     if (with_layers) prepare_layers(frame, offer, files.frame, reader);
-    frame.window = reader.data_window();
-    if (frame.window.empty()) frame.window = files.frame.info().parts.front().data_window;
     allocate(frame, roles);
     const NanReport report = reader.read(frame.window, state.options.nan_is_error);
     if (on_nan && !(report.nan.empty() && report.infinite.empty())) on_nan(number, report);
     for (const RoleBinding* binding : roles) state.convert(frame, *binding);
     for (const std::string& note : notes)
-      if (on_note && state_->is_new(note)) on_note(number, note);
+      if (on_note) on_note(number, note);
     return frame;
   });
 }

@@ -24,6 +24,9 @@ struct Sibling {
 /// Everything that turns files into canonical frames, resolved and validated before frame 1.
 struct SourceOptions {
   Sequence sequence;
+  /// The frame that views, roles and layers are resolved from and that all others are compared with; default: the first
+  /// of the sequence. Frames before it can be loaded too, as long as they have its shape.
+  std::optional<int> first_frame;
   Profile profile;
   std::map<std::string, std::string> channel_overrides;  ///< role name -> channel names, comma separated
   std::vector<Sibling> siblings;
@@ -42,13 +45,18 @@ struct NanReport {
   std::map<std::string, int64_t> nan, infinite;
 };
 
-/// Frames from EXR files. Checks each header against the first frame's (display window, channels, pixel aspect:
-/// Error(data) with frame and both values). Converts depth, normals, velocity and camera to canonical form; NaN and Inf
-/// colours stay in the layers, counted.
+/// Frames from EXR files. The constructor refuses depth that cannot become planar. Each header is checked against the
+/// first frame's (display window, channels, pixel aspect: Error(data) with frame and both values). Converts depth,
+/// normals, velocity and camera to canonical form; NaN and Inf colours stay in the layers, counted.
+///
+/// A frame's window is the union of the data windows of all roles of the view that can be loaded, of its chosen layers
+/// and of Frame::part, whichever of them are loaded: what is computed from a frame does not depend on what else was
+/// asked for. A sibling sequence that lacks the frame has no part in it.
 class FileSource final : public FrameSource {
  public:
   explicit FileSource(SourceOptions options);
   ~FileSource() override;
+  /// May be called by several threads at once, if on_nan and on_note may: they are called by the loading threads.
   std::optional<Frame> load(int number, const std::string& view, RoleSet roles, bool with_layers) override;
 
   /// What the first frame shows; views, roles and layers are those of the whole sequence.
@@ -60,7 +68,8 @@ class FileSource final : public FrameSource {
 
   /// Called once per loaded frame that has NaN or Inf in a channel.
   std::function<void(int frame, const NanReport&)> on_nan;
-  /// What the log should say about the input, each text once: a role that cannot be used, a camera that looks wrong.
+  /// What the log should say about the input, again for each frame: a role that cannot be used, a camera that looks
+  /// wrong.
   std::function<void(int frame, const std::string&)> on_note;
 
  private:
@@ -68,12 +77,15 @@ class FileSource final : public FrameSource {
   std::unique_ptr<State> state_;
 };
 
-/// Frames to EXR files: the source frame's file with changed layers and added channels (write_exr).
 struct SinkOptions {
   WriteOptions write;
+  ReadLimits limits{};                                   ///< those of the source
   std::function<std::string(int)> path;                  ///< output path of a frame
   std::function<void(int, const std::string&)> on_note;  ///< notes of write_exr
 };
+/// Frames to EXR files: the source frame's file with changed layers and added channels (write_exr). A changed layer is
+/// written where its data window and the planes overlap; added channels cover the data window of Frame::part, or what
+/// it grows to, and overwrite channels of their name that the part has.
 class FileSink final : public FrameSink {
  public:
   FileSink(const Sequence& sources, SinkOptions options);

@@ -9,7 +9,7 @@ std::string window_text(Window w) { return cat("(", w.min_x, ", ", w.min_y, ")-(
 namespace {
 
 [[noreturn]] void differs(std::string_view what, std::string_view here, std::string_view there, const FileInfo& first) {
-  throw Error(ErrorCode::data, cat(what, " is ", here, ", but ", there, " in the first file (", first.path, ")"),
+  throw Error(ErrorCode::data, cat(what, " is ", here, ", but ", there, " in the first frame (", first.path, ")"),
               "a sequence must keep its shape; process the frames before and after the change separately");
 }
 
@@ -22,13 +22,18 @@ void check_same_shape(const FileInfo& frame, const FileInfo& first) {
     differs("pixelAspectRatio", cat(frame.pixel_aspect), cat(first.pixel_aspect), first);
 }
 
+void check_part(const FileInfo& frame, const FileInfo& first, int part) {
+  if (static_cast<size_t>(part) >= frame.parts.size())
+    differs("the number of parts", cat(frame.parts.size()), cat(first.parts.size()), first);
+}
+
 void check_channel(const FileInfo& frame, const FileInfo& first, const ChannelRef& ref, std::string_view use) {
   const auto part = static_cast<size_t>(ref.part);
   if (part < frame.parts.size() && frame.parts[part].find(ref.channel)) return;
   const std::string where =
       first.parts.size() > 1 ? cat(" in part ", ref.part, " (\"", first.parts[part].name, "\")") : "";
   throw Error(ErrorCode::data,
-              cat("channel ", ref.channel, where, " (", use, ") is missing; the first file (", first.path, ") has it"),
+              cat("channel ", ref.channel, where, " (", use, ") is missing; the first frame (", first.path, ") has it"),
               "render the frame again, or leave it out with --frames");
 }
 

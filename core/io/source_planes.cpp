@@ -26,18 +26,14 @@ Count count_bad(const Plane& plane, Window window, Window inside) {
   return count;
 }
 
-Window window_of(const ExrReader& file, int part) { return file.info().parts[static_cast<size_t>(part)].data_window; }
-
 }  // namespace
+
+Window data_window(const ExrReader& file, int part) {
+  return file.info().parts.at(static_cast<size_t>(part)).data_window;
+}
 
 void PlaneReader::add(const ExrReader& file, const ChannelRef& ref, Plane& target, bool infinity_is_meant) {
   jobs_.push_back({&file, ref, &target, infinity_is_meant});
-}
-
-Window PlaneReader::data_window() const {
-  Window out;
-  for (const Job& job : jobs_) out = united(out, window_of(*job.file, job.ref.part));
-  return out;
 }
 
 NanReport PlaneReader::read(Window window, bool nan_is_error) const {
@@ -46,7 +42,7 @@ NanReport PlaneReader::read(Window window, bool nan_is_error) const {
   for (const auto& [part, requests] : parts) part.first->read(part.second, requests, window);
   NanReport report;
   for (const Job& job : jobs_) {
-    const Count count = count_bad(*job.target, window, intersection(window, window_of(*job.file, job.ref.part)));
+    const Count count = count_bad(*job.target, window, intersection(window, data_window(*job.file, job.ref.part)));
     const int64_t infinite = job.infinity_is_meant ? 0 : count.infinite;
     if (nan_is_error && count.nan + infinite > 0)
       throw Error(ErrorCode::data,

@@ -100,6 +100,13 @@ LayerChoice& choice_for(std::vector<LayerChoice>& layers, const ColorBinding& bi
   return layers.emplace_back(LayerChoice{binding});
 }
 
+/// The beauty's part, else the view's first, else the file's.
+int part_of_view(const FileInfo& info, const std::string& view, const std::vector<ColorBinding>& colors) {
+  if (!colors.empty() && colors.front().is_beauty) return colors.front().channels.front().part;
+  const auto own = std::ranges::find(info.parts, view, &PartInfo::view);
+  return own == info.parts.end() ? 0 : static_cast<int>(own - info.parts.begin());
+}
+
 /// Effects change light; whole numbers are ids or masks.
 void refuse_uint(const FileInfo& info, const ColorBinding& binding) {
   for (const ChannelRef& ref : binding.channels)
@@ -151,16 +158,46 @@ std::optional<Camera> find_camera(const ExrReader& file, const SourceOptions& op
   return camera;
 }
 
+DepthContext depth_context(const SourceOptions& options, const std::optional<Camera>& camera, Window window) {
+  DepthContext depth{camera, options.near_plane, options.far_plane, options.metres_per_unit, window};
+  if (camera && camera->near_m) depth.near_plane = *camera->near_m / options.metres_per_unit;
+  if (camera && camera->far_m) depth.far_plane = *camera->far_m / options.metres_per_unit;
+  return depth;
+}
+
+namespace {
+
+/// The file of the first frame; a sibling sequence that lacks it is judged by the first that it has.
+const std::string& first_path(const Sequence& sequence, int number) {
+  const std::string* path = sequence.path(number);
+  return path ? *path : sequence.entries().front().path;
+}
+
+/// What can be loaded with the camera there is, and whether depth can be made planar with it.
+void check_roles(ViewState& state, const SourceOptions& options, const std::optional<Camera>& camera) {
+  for (const RoleBinding& binding : state.roles) {
+    if (binding.role == Role::depth)
+      with_context(cat("depth (", binding.why, ")"),
+                   [&] { check_depth(binding.encoding, depth_context(options, camera, {})); });
+    const bool needs_position = binding.role == Role::normal && binding.encoding.normal_space == NormalSpace::world;
+    if (!needs_position || (camera && camera->world_to_camera)) state.available.insert(binding.role);
+  }
+}
+
+}  // namespace
+
 Resolved resolve(const SourceOptions& options) {
   if (options.sequence.empty()) throw Error(ErrorCode::no_input, "the input has no frames");
-  const auto& [number, path] = options.sequence.entries().front();
-  const ExrReader file(path, options.limits);
+  const int number = options.first_frame.value_or(options.sequence.entries().front().frame);
+  const std::string* path = options.sequence.path(number);
+  if (!path) throw Error(ErrorCode::no_input, cat("the input has no frame ", number));
+  const ExrReader file(*path, options.limits);
   Resolved out;
   out.first = file.info();
   for (const Sibling& sibling : options.siblings) {
     if (sibling.sequence.empty())
       throw Error(ErrorCode::no_input, cat("--role ", info(sibling.role).name, ": there are no frames"));
-    out.siblings.push_back(ExrReader(sibling.sequence.entries().front().path, options.limits).info());
+    out.siblings.push_back(ExrReader(first_path(sibling.sequence, number), options.limits).info());
     with_context(cat("--role ", info(sibling.role).name, " (", out.siblings.back().path, ")"),
                  [&] { check_same_shape(out.siblings.back(), out.first); });
   }
@@ -169,13 +206,11 @@ Resolved resolve(const SourceOptions& options) {
     ViewState state;
     state.roles = bind_roles(out, options, view);
     state.colors = resolve_colors(out.first, view, options.profile, options.channel_overrides, cryptomattes);
+    state.part = part_of_view(out.first, view, state.colors);
     state.layers = choose_layers(out.first, view, state.colors, options, cryptomattes);
     const auto camera = with_context(out.first.path, [&] { return find_camera(file, options, number, view, nullptr); });
     state.header_camera = has_header_camera(file, options, view);
-    for (const RoleBinding& binding : state.roles) {
-      const bool needs_position = binding.role == Role::normal && binding.encoding.normal_space == NormalSpace::world;
-      if (!needs_position || (camera && camera->world_to_camera)) state.available.insert(binding.role);
-    }
+    check_roles(state, options, camera);
     out.views[view] = std::move(state);
   }
   return out;

@@ -1,11 +1,9 @@
 #pragma once
 #include <map>
-#include <memory>
-#include <mutex>
-#include <set>
 #include <string>
 #include <vector>
 
+#include "core/io/conversions.h"
 #include "core/io/file_source.h"
 
 namespace aftershade::io {
@@ -22,10 +20,11 @@ struct ViewState {
   std::vector<ColorBinding> colors;
   std::vector<LayerChoice> layers;
   RoleSet available;
+  int part = 0;  ///< of the beauty, else the view's first: where added channels go
   bool header_camera = false;
 };
 
-/// The first frames, and what was found in them; constant once made.
+/// SourceOptions::first_frame, and what was found in it; constant once made.
 struct Resolved {
   FileInfo first;
   std::vector<FileInfo> siblings;
@@ -39,8 +38,15 @@ std::optional<Camera> find_camera(const ExrReader& file, const SourceOptions& op
 /// Has a part of the view usable camera attributes?
 bool has_header_camera(const ExrReader& file, const SourceOptions& options, const std::string& view);
 
+/// What the camera and the options say about a depth.
+DepthContext depth_context(const SourceOptions& options, const std::optional<Camera>& camera, Window window);
+
+/// The data window of a part.
+Window data_window(const ExrReader& file, int part);
+
 /// Error(data) with both values when a frame does not fit the first one.
 void check_same_shape(const FileInfo& frame, const FileInfo& first);
+void check_part(const FileInfo& frame, const FileInfo& first, int part);
 void check_channel(const FileInfo& frame, const FileInfo& first, const ChannelRef& ref, std::string_view use);
 
 std::string window_text(Window window);  ///< "(0, 0)-(1919, 1079)"
@@ -49,8 +55,6 @@ std::string window_text(Window window);  ///< "(0, 0)-(1919, 1079)"
 class PlaneReader {
  public:
   void add(const ExrReader& file, const ChannelRef& ref, Plane& target, bool infinity_is_meant);
-  /// Union of the data windows of the parts that are read.
-  Window data_window() const;
   /// Each part is decoded once. Counts pixels of the data windows that are no numbers.
   NanReport read(Window window, bool nan_is_error) const;
 

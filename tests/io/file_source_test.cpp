@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <limits>
 
@@ -121,6 +122,70 @@ TEST_F(FileSourceTest, ChangesWithinASequenceAreRefused) {
              {"frame 2 (", "a.0002.exr", "displayWindow is (0, 0)-(8, 5)", "(0, 0)-(7, 5)", "a.0001.exr"});
   expect_has(message([&] { source.load(3, "", {Role::depth}, true); }, ErrorCode::data),
              {"frame 3 (", "channel Z (depth) is missing", "a.0001.exr"});
+}
+
+TEST_F(FileSourceTest, TheFirstFrameCanBeAnother) {
+  Picture wide;
+  wide.display.max_x = 8;
+  write("a.0002.exr", Picture{});
+  write("a.0003.exr", wide);
+  write("a.0004.exr", wide);
+  std::ofstream(path("a.0001.exr")) << "damaged";
+  write("depth.0003.exr", wide);
+  std::ofstream(path("depth.0001.exr")) << "damaged";
+  EXPECT_THROW(FileSource{options()}, Error);
+  SourceOptions later = options();
+  later.first_frame = 3;
+  later.siblings.push_back({Role::depth, find_sequence(path("depth.####.exr"), HashDigits::one).sequence});
+  FileSource source(later);
+  EXPECT_EQ(source.info().display_window, wide.display);
+  EXPECT_TRUE(source.load(3, "", {Role::depth}, true));
+  EXPECT_TRUE(source.load(4, "", {}, true));
+  expect_has(message([&] { source.load(2, "", {}, false); }, ErrorCode::data),
+             {"frame 2 (", "displayWindow is (0, 0)-(7, 5)", "(0, 0)-(8, 5)", "a.0003.exr"});
+  EXPECT_THROW(source.load(1, "", {}, false), Error);
+  later.first_frame = 7;
+  expect_has(message([&] { FileSource other(later); }, ErrorCode::no_input), {"no frame 7"});
+}
+
+TEST_F(FileSourceTest, DepthThatCannotBecomePlanarIsRefusedAtOnce) {
+  write("a.0001.exr", Picture{});
+  SourceOptions device = options();
+  for (const DepthKind kind : {DepthKind::device, DepthKind::device_reversed}) {
+    device.depth_kind = kind;
+    expect_has(message([&] { FileSource other(device); }, ErrorCode::usage), {"depth (", "Z", "--near and --far"});
+  }
+  device.near_plane = 0.5;
+  EXPECT_THROW(FileSource{device}, Error);
+  device.far_plane = 100;
+  EXPECT_TRUE(FileSource(device).load(1, "", {Role::depth}, false)->has(Role::depth));
+  SourceOptions ray = options();
+  ray.depth_kind = DepthKind::ray;
+  expect_has(message([&] { FileSource other(ray); }, ErrorCode::data), {"depth (", "Z", "--fov or --camera"});
+  ray.fov_deg = 60;
+  EXPECT_TRUE(FileSource(ray).load(1, "", {Role::depth}, false)->has(Role::depth));
+}
+
+TEST_F(FileSourceTest, DamagedFramesAreNamedTwiceAtMost) {
+  write("a.0001.exr", Picture{});
+  std::ifstream in(path("a.0001.exr"), std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  for (size_t i = bytes.find("channels"); i < bytes.size(); ++i) {
+    std::string noisy = bytes;
+    noisy[i] = static_cast<char>(noisy[i] ^ 0x55);
+    fs::remove(path("a.0002.exr"));
+    std::ofstream(path("a.0002.exr"), std::ios::binary) << noisy;
+    FileSource source(options());
+    try {
+      source.load(2, "", {Role::depth}, true);
+    } catch (const Error& error) {
+      const std::string text = error.what();
+      size_t names = 0;
+      for (size_t at = text.find("a.0002.exr"); at != std::string::npos; at = text.find("a.0002.exr", at + 1)) ++names;
+      EXPECT_TRUE(names == 1 || names == 2) << text;
+      EXPECT_EQ(text.find("\""), std::string::npos) << text;
+    }
+  }
 }
 
 TEST_F(FileSourceTest, WrongTypesAreNamed) {
@@ -240,7 +305,8 @@ TEST_F(FileSourceTest, WorldNormalsNeedAPosition) {
   source.on_note = [&](int, const std::string& note) { notes.push_back(note); };
   EXPECT_FALSE(source.load(1, "", {Role::normal}, false)->has(Role::normal));
   source.load(1, "", {Role::normal}, false);
-  ASSERT_EQ(notes.size(), 1U) << "said once";
+  ASSERT_EQ(notes.size(), 2U) << "once a frame; the log counts";
+  EXPECT_EQ(notes[0], notes[1]);
   expect_has(notes[0], {"world space"});
 }
 
@@ -251,9 +317,12 @@ TEST_F(FileSourceTest, SinkWritesChangedLayersAndNewChannels) {
   std::vector<Frame> views;
   views.push_back(*source.load(1, "", {Role::depth}, true));
   views[0].layers[0].planes[0](3, 2) = 9;
+  views[0].layers[0].changed = true;
   views[0].added["AO"] = Plane(8, 6, 0.5F);
-  FileSink sink(input.sequence,
-                {.write = {}, .path = [&](int n) { return path("out." + std::to_string(n) + ".exr"); }, .on_note = {}});
+  FileSink sink(input.sequence, {.write = {},
+                                 .limits = {},
+                                 .path = [&](int n) { return path("out." + std::to_string(n) + ".exr"); },
+                                 .on_note = {}});
   sink.write(1, views);
   Plane red(8, 6), ao(8, 6), z(8, 6);
   const ExrReader written(path("out.1.exr"));

@@ -125,11 +125,12 @@ TEST(Beachball, NewChannelsCarryTheViewWhereItIsNotTheDefault) {
     views.push_back(*source.load(8, view, {}, true));
     const Window window = views.back().window;
     views.back().layers[0].planes[0](5, 5) = view == "left" ? 2.0F : 3.0F;
+    views.back().layers[0].changed = true;
     for (const char* name : {"AO", "aftershade.mask"})
       views.back().added[name] = Plane(window.width(), window.height(), 0.5F);
   }
   const std::string target = ::testing::TempDir() + "beachball_" + std::to_string(::getpid()) + ".exr";
-  FileSink sink(options.sequence, {.write = {}, .path = [&](int) { return target; }, .on_note = {}});
+  FileSink sink(options.sequence, {.write = {}, .limits = {}, .path = [&](int) { return target; }, .on_note = {}});
   sink.write(8, views);
   {
     const ExrReader written(target);
