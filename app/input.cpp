@@ -32,15 +32,6 @@ std::pair<std::string, std::string> split_role(const std::string& text, std::str
   return {role, text.substr(equals + 1)};
 }
 
-std::optional<io::DepthKind> depth_kind(const std::string& name) {
-  if (name == "planar") return io::DepthKind::planar;
-  if (name == "ray") return io::DepthKind::ray;
-  if (name == "device") return io::DepthKind::device;
-  if (name == "device-reversed") return io::DepthKind::device_reversed;
-  if (name == "inverse") return io::DepthKind::inverse;
-  return std::nullopt;
-}
-
 /// The frames asked for, split into those that exist and those that do not.
 void select_frames(const InputArgs& args, Input& input) {
   const io::FrameNumbers on_disk = input.found.sequence.frames();
@@ -88,6 +79,7 @@ Input open_input(const InputArgs& args) {
   if (!args.camera.empty()) options.camera_file = std::make_shared<io::CameraFile>(args.camera);
   choose_unit(args, options.camera_file.get(), input);
   options.sequence = input.found.sequence;
+  options.first_frame = input.frames.front();
   options.profile = input.producer.profile;
   for (const std::string& text : args.channels) options.channel_overrides.insert(split_role(text, "--channel", true));
   for (const std::string& text : args.roles) {
@@ -95,7 +87,7 @@ Input open_input(const InputArgs& args) {
     input.siblings.push_back(io::find_sequence(pattern, hash_digits(args.hash_digits)).sequence);
     options.siblings.push_back({*role_from_name(role), input.siblings.back()});
   }
-  options.depth_kind = depth_kind(args.depth_kind);
+  options.depth_kind = io::depth_kind_named(args.depth_kind);
   options.near_plane = args.near_plane;
   options.far_plane = args.far_plane;
   options.metres_per_unit = metres_per_unit(input.unit);
@@ -106,7 +98,7 @@ Input open_input(const InputArgs& args) {
   options.blur_layers = args.blur_layers;
   options.nan_is_error = args.nan == "error";
   input.source = std::make_unique<io::FileSource>(std::move(options));
-  input.source->on_note = [](int frame, const std::string& text) { log().note(cat("frame ", frame, ": ", text)); };
+  input.source->on_note = [](int frame, const std::string& text) { log().note(text, cat("frame ", frame, ": ")); };
 
   input.views = args.views.empty() ? input.source->views() : args.views;
   return input;

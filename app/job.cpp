@@ -124,7 +124,10 @@ Job resolve_job(const RenderArgs& args) {
   for (const int frame : job.written) check_folder(job.output_path(frame));
   check_not_input(job);
   apply_existing(args.existing, job);
-  if (!args.compression.empty()) job.write.compression = args.compression;
+  if (!args.compression.empty()) {
+    io::check_compression(args.compression);
+    job.write.compression = args.compression;
+  }
   job.write.data_window = args.data_window == "grow" ? io::DataWindowPolicy::grow : io::DataWindowPolicy::keep;
   job.write.only_new_channels = args.ao_only;
   const pipeline::Outputs outputs = outputs_of(args, job.input.source->info());

@@ -22,8 +22,9 @@ void Log::warning(std::string_view text) {
   if (level_ != Level::errors && is_first_of_its_kind(text)) print("aftershade: warning: ", text);
 }
 
-void Log::note(std::string_view text) {
-  if (level_ != Level::errors && (verbose() || noted_.insert(std::string(text)).second)) print("aftershade: ", text);
+void Log::note(std::string_view text, std::string_view where) {
+  if (level_ != Level::errors && (verbose() || noted_.insert(std::string(text)).second))
+    print("aftershade: ", cat(where, text));
 }
 
 bool Log::is_first_of_its_kind(std::string_view text) {

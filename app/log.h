@@ -16,9 +16,9 @@ class Log {
 
   void error(std::string_view text);
   void warning(std::string_view text);
-  void note(std::string_view text);
-  void line(std::string_view text);    ///< always, however often
-  void detail(std::string_view text);  ///< only with -v
+  void note(std::string_view text, std::string_view where = "");  ///< the same text elsewhere is a repetition
+  void line(std::string_view text);                               ///< always, however often
+  void detail(std::string_view text);                             ///< only with -v
 
   /// Says how many warnings were held back since the last call.
   void summarise();

@@ -1,8 +1,15 @@
 #include "app/commands.h"
+#include "core/io/profile.h"
 
 namespace aftershade::app {
 
 namespace {
+
+std::vector<std::string> depth_kind_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, kind] : io::kDepthKinds) names.emplace_back(name);
+  return names;
+}
 
 template <class Args>
 void add_input(std::vector<Option<Args>>& t) {
@@ -20,11 +27,7 @@ void add_input(std::vector<Option<Args>>& t) {
                "velocity_prev, velocity_next, ambient, ao"});
   t.push_back(
       {"--role", "ROLE=INPUT", &Args::roles, "takes a role from another sequence, such as depth=depth.####.exr"});
-  t.push_back({"--depth-kind",
-               "KIND",
-               &Args::depth_kind,
-               "how depth is stored",
-               {"planar", "ray", "device", "device-reversed", "inverse"}});
+  t.push_back({"--depth-kind", "KIND", &Args::depth_kind, "how depth is stored", depth_kind_names()});
   t.push_back({"--near", "LENGTH", &Args::near_plane, "near clip plane in the file's unit, for device depth"});
   t.push_back({"--far", "LENGTH", &Args::far_plane, "far clip plane in the file's unit, for device depth"});
   t.push_back({"--unit", "UNIT", &Args::unit, "unit of length in the files: m, cm, mm, ft or metres per unit"});
@@ -134,8 +137,12 @@ const std::vector<Option<SheetArgs>>& sheet_options() {
     using Args = SheetArgs;
     std::vector<Option<Args>> t;
     t.push_back({"before", "BEFORE", &Args::before, "the sequence before: a pattern, a frame, or a folder", {}, true});
-    t.push_back(
-        {"after", "AFTER", &Args::after, "the sequence after; its AO channel is shown if it has one", {}, true});
+    t.push_back({"after",
+                 "AFTER",
+                 &Args::after,
+                 "the sequence after; the AO that render wrote into it is shown, else the producer's, if there is one",
+                 {},
+                 true});
     t.push_back({"-o,--output", "FILE.png", &Args::output, "the picture to write", {}, true});
     t.push_back({"--frames", "RANGE", &Args::frames, "frames to show, a row each; first, middle and last by default"});
     t.push_back(
