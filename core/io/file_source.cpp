@@ -135,7 +135,7 @@ Frame FileSource::State::empty_frame(const Files& files, int number, const std::
   if (!note.empty()) notes.push_back(std::move(note));
   if (view(view_name).header_camera && !(frame.camera && frame.camera->world_to_camera))
     throw Error(ErrorCode::data,
-                cat("the camera matrices are missing; the first file (", resolved.first.path, ") has them"),
+                cat("the camera matrices are missing; the first frame (", resolved.first.path, ") has them"),
                 "render the frame again, or give --camera FILE");
   return frame;
 }
