@@ -28,6 +28,12 @@ std::function<std::string(int)> output_paths(const RenderArgs& args, const io::P
   return [path = args.output](int) { return path; };
 }
 
+void check_name(const std::string& path) {
+  if (to_lower(path).ends_with(".exr")) return;
+  throw Error(ErrorCode::usage, cat("-o ", path, ": frames are written as EXR, and this name does not say so"),
+              "let it end in .exr");
+}
+
 void check_folder(const std::string& path) {
   fs::path folder = fs::path(path).parent_path();
   if (folder.empty()) folder = ".";
@@ -121,7 +127,10 @@ Job resolve_job(const RenderArgs& args) {
   job.preroll = preroll_of(args.preroll);
   job.written = job.input.frames;
   job.output_path = output_paths(args, job.input.found.pattern, job.written.size());
-  for (const int frame : job.written) check_folder(job.output_path(frame));
+  for (const int frame : job.written) {
+    check_name(job.output_path(frame));
+    check_folder(job.output_path(frame));
+  }
   check_not_input(job);
   apply_existing(args.existing, job);
   if (!args.compression.empty()) {
@@ -131,6 +140,8 @@ Job resolve_job(const RenderArgs& args) {
   job.write.data_window = args.data_window == "grow" ? io::DataWindowPolicy::grow : io::DataWindowPolicy::keep;
   job.write.only_new_channels = args.ao_only;
   const pipeline::Outputs outputs = outputs_of(args, job.input.source->info());
+  if (!args.camera.empty() && job.input.source->has_header_camera(job.input.views.front()))
+    log().note("--camera is not used: the frames have camera matrices in their headers");
   for (const std::string& view : job.input.views)
     with_context(view.empty() ? job.input.found.pattern.text() : "view " + view,
                  [&] { job.views.emplace_back(job.preset.preset, view, offer_of(job.input, view), outputs); });

@@ -1,8 +1,10 @@
 #include <cstdio>
 
 #include "app/commands.h"
+#include "app/log.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/pipeline/pipeline.h"
 #include "core/preset/preset.h"
 
 namespace aftershade::app {
@@ -22,12 +24,24 @@ int list() {
   return 0;
 }
 
+/// A file that has everything: what is wrong with a preset on it is wrong with the preset.
+pipeline::Offer everything() {
+  pipeline::Offer offer{{}, true, true};
+  for (const RoleInfo& role : kRoles) offer.roles.insert(role.role);
+  return offer;
+}
+
+/// Loads each preset and puts its stages together; reports all, the status is that of the first failure.
 int validate(const std::vector<std::string>& names) {
-  for (const std::string& name : names) {
-    preset::load_preset(name);
-    std::printf("%s: valid\n", name.c_str());
-  }
-  return 0;
+  int status = 0;
+  for (const std::string& name : names) try {
+      with_context(name, [&] { pipeline::ViewPipeline(preset::load_preset(name).preset, "", everything(), {}); });
+      std::printf("%s: valid\n", name.c_str());
+    } catch (const Error& error) {
+      log().error(error.what());
+      if (status == 0) status = exit_status(error.code());
+    }
+  return status;
 }
 
 int diff(const std::string& a, const std::string& b) {

@@ -86,6 +86,8 @@ int parse_and_run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (app.get_subcommands().empty())
+      throw Error(ErrorCode::usage, cat("there is no command \"", words.front(), "\""), hint_for(words, app));
     throw Error(ErrorCode::usage, error.what(), hint_for(words, app));
   }
   if (*render_command) return apply(render_args), render(render_args);

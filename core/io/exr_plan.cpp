@@ -18,9 +18,13 @@ std::string part_label(const RawPart& part, size_t index, size_t count) {
 /// The compression of a part that is encoded again: the source's, ZIP in place of a lossy one, or what the user wants.
 int choose_compression(int source, const std::optional<std::string>& wanted, const std::string& label,
                        std::vector<std::string>& notes) {
-  if (wanted && *wanted != "keep") return *compression_from_name(*wanted);
-  if (wanted || !info_of(source).lossy) return source;
-  notes.push_back(cat(label, "compression ", info_of(source).name, " is lossy, written as zip"));
+  const int chosen = wanted && *wanted != "keep" ? *compression_from_name(*wanted) : source;
+  const std::string name(info_of(chosen).name);
+  const bool rounds = info_of(chosen).lossy || name == "pxr24";  // 24 bits of a float
+  if (wanted && rounds)
+    notes.push_back(cat(label, "compression ", name, " loses precision, in the part's unchanged channels too"));
+  if (wanted || !info_of(source).lossy) return chosen;
+  notes.push_back(cat(label, "compression ", name, " is lossy, written as zip"));
   return *compression_from_name("zip");
 }
 

@@ -73,6 +73,7 @@ void FileSource::State::check(const FileInfo& frame, const ViewState& view_state
   for (const LayerChoice& layer : view_state.layers)
     for (const ChannelRef& ref : layer.binding.channels)
       check_channel(frame, resolved.first, ref, layer.binding.is_beauty ? "colour" : layer.binding.layer);
+  check_channel_set(frame, resolved.first);
 }
 
 /// All that the frame has, because their windows count whatever is loaded; those of roles asked for must be there.
@@ -248,6 +249,8 @@ const FileInfo& FileSource::info() const { return state_->resolved.first; }
 std::vector<std::string> FileSource::views() const { return views_of(state_->resolved.first); }
 const std::vector<RoleBinding>& FileSource::roles(const std::string& view) const { return state_->view(view).roles; }
 const std::vector<ColorBinding>& FileSource::layers(const std::string& view) const { return state_->view(view).colors; }
+bool FileSource::has_header_camera(const std::string& view) const { return state_->view(view).header_camera; }
+
 RoleSet FileSource::available(const std::string& view) const { return state_->view(view).available; }
 
 }  // namespace aftershade::io

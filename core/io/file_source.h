@@ -65,6 +65,8 @@ class FileSource final : public FrameSource {
   const std::vector<RoleBinding>& roles(const std::string& view) const;
   const std::vector<ColorBinding>& layers(const std::string& view) const;
   RoleSet available(const std::string& view) const;
+  /// Do the frames have camera matrices of their own? Then a camera file is not used.
+  bool has_header_camera(const std::string& view) const;
 
   /// Called once per loaded frame that has NaN or Inf in a channel.
   std::function<void(int frame, const NanReport&)> on_nan;

@@ -116,7 +116,8 @@ std::string in_folder(const std::string& folder, const std::string& name) {
 std::string Pattern::name(int frame) const {
   return has_token ? prefix + digits_of(frame, padding) + suffix : prefix + suffix;
 }
-std::string Pattern::path(int frame) const { return in_folder(folder, name(frame)); }
+std::string Pattern::path(int frame) const { return path_of(name(frame)); }
+std::string Pattern::path_of(const std::string& name) const { return in_folder(folder, name); }
 std::string Pattern::text() const {
   const std::string token(has_token ? static_cast<size_t>(padding) : 0, '#');
   return in_folder(folder, prefix + token + suffix);
@@ -170,7 +171,9 @@ std::optional<int> frame_of_name(const Pattern& pattern, std::string_view name) 
   const std::string_view digits = name.substr(negative ? 1 : 0);
   if (digits.empty() || !std::all_of(digits.begin(), digits.end(), is_digit)) return std::nullopt;
   const auto padding = static_cast<size_t>(pattern.padding);
-  if (digits.size() < padding || (digits.size() > padding && digits.front() == '0')) return std::nullopt;
+  // The sign is extra; printf counts it, so -001 is a name of frame -1 under %04d too.
+  const size_t least = negative && padding > 1 ? padding - 1 : padding;
+  if (digits.size() < least || (digits.size() > padding && digits.front() == '0')) return std::nullopt;
   const auto frame = parse_integer(digits);
   if (!frame || (negative && *frame == 0)) return std::nullopt;
   return negative ? -*frame : *frame;

@@ -30,7 +30,7 @@ std::vector<std::string> names_in(const std::string& folder) {
 Sequence matches(const Pattern& pattern, const std::vector<std::string>& names) {
   std::vector<Sequence::Entry> entries;
   for (const std::string& name : names)
-    if (const auto frame = frame_of_name(pattern, name)) entries.push_back({*frame, pattern.path(*frame)});
+    if (const auto frame = frame_of_name(pattern, name)) entries.push_back({*frame, pattern.path_of(name)});
   return Sequence(std::move(entries));
 }
 

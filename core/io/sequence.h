@@ -26,13 +26,15 @@ struct Pattern {
   std::optional<FrameNumbers> range{};
   bool has_token = true;  ///< false: a literal name without any frame number; its frame is 0
   std::string path(int frame) const;
-  std::string name(int frame) const;  ///< without folder
-  std::string text() const;           ///< for messages: folder/prefix####suffix
+  std::string name(int frame) const;                   ///< without folder
+  std::string path_of(const std::string& name) const;  ///< a name found on disk may pad a negative number otherwise
+  std::string text() const;                            ///< for messages: folder/prefix####suffix
 };
 
 /// A pattern written by a user; nullopt when there is no frame token in the file name. The last token counts.
 std::optional<Pattern> parse_pattern(std::string_view text, HashDigits hash);
-/// The pattern of a literal frame: the last run of digits before the extension ("shot.1001.exr", "shot_v2.-5.exr"); a version or a size
+/// The pattern of a literal frame: the last run of digits before the extension ("shot.1001.exr", "shot_v2.-5.exr"); a
+/// version or a size
 /// ("_v2", "4k") is not one. Its padding is the number of digits.
 std::optional<Pattern> pattern_of_frame(std::string_view path);
 /// The frame number of a file name under a pattern, if it matches: at least `padding` digits, no zeros beyond them.

@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <iterator>
+#include <set>
+
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/source_state.h"
@@ -35,6 +39,27 @@ void check_channel(const FileInfo& frame, const FileInfo& first, const ChannelRe
   throw Error(ErrorCode::data,
               cat("channel ", ref.channel, where, " (", use, ") is missing; the first frame (", first.path, ") has it"),
               "render the frame again, or leave it out with --frames");
+}
+
+void check_channel_set(const FileInfo& frame, const FileInfo& first) {
+  const auto names_of = [](const FileInfo& info) {
+    std::set<std::string> names;
+    for (size_t part = 0; part < info.parts.size(); ++part)
+      for (const ChannelInfo& channel : info.parts[part].channels)
+        names.insert(
+            cat(channel.name, " (", to_text(channel.type), info.parts.size() > 1 ? cat(", part ", part) : "", ")"));
+    return names;
+  };
+  const std::set<std::string> here = names_of(frame), there = names_of(first);
+  std::vector<std::string> more, fewer;
+  std::ranges::set_difference(here, there, std::back_inserter(more));
+  std::ranges::set_difference(there, here, std::back_inserter(fewer));
+  if (more.empty() && fewer.empty()) return;
+  throw Error(ErrorCode::data,
+              cat("the channels differ from those of the first frame (", first.path,
+                  "):", more.empty() ? "" : " here only " + join(more, ", "), more.empty() || fewer.empty() ? "" : ";",
+                  fewer.empty() ? "" : " there only " + join(fewer, ", ")),
+              "a sequence must keep its shape; process the frames before and after the change separately");
 }
 
 }  // namespace aftershade::io

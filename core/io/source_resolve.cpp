@@ -107,13 +107,12 @@ int part_of_view(const FileInfo& info, const std::string& view, const std::vecto
   return own == info.parts.end() ? 0 : static_cast<int>(own - info.parts.begin());
 }
 
-/// Effects change light; whole numbers are ids or masks.
-void refuse_uint(const FileInfo& info, const ColorBinding& binding) {
-  for (const ChannelRef& ref : binding.channels)
+/// Light, lengths and vectors are fractions; whole numbers are ids or masks.
+void refuse_uint(const FileInfo& info, const std::vector<ChannelRef>& channels, std::string_view use) {
+  for (const ChannelRef& ref : channels)
     if (info.parts[static_cast<size_t>(ref.part)].find(ref.channel)->type == PixelType::uint)
-      throw Error(ErrorCode::data,
-                  cat(info.path, ": channel ", ref.channel, " holds whole numbers (uint), which effects cannot change"),
-                  "choose layers of half or float channels");
+      throw Error(ErrorCode::data, cat(info.path, ": channel ", ref.channel, " (", use, ") holds whole numbers (uint)"),
+                  "name half or float channels with --channel or choose other layers");
 }
 
 std::vector<LayerChoice> choose_layers(const FileInfo& info, const std::string& view,
@@ -127,7 +126,7 @@ std::vector<LayerChoice> choose_layers(const FileInfo& info, const std::string& 
   };
   choose(options.ao_layers, &LayerChoice::ao);
   choose(options.blur_layers, &LayerChoice::blur);
-  for (const LayerChoice& layer : layers) refuse_uint(info, layer.binding);
+  for (const LayerChoice& layer : layers) refuse_uint(info, layer.binding.channels, "colour");
   return layers;
 }
 
@@ -176,6 +175,9 @@ const std::string& first_path(const Sequence& sequence, int number) {
 /// What can be loaded with the camera there is, and whether depth can be made planar with it.
 void check_roles(ViewState& state, const SourceOptions& options, const std::optional<Camera>& camera) {
   for (const RoleBinding& binding : state.roles) {
+    // Ray distances that only a profile guessed are left aside without a lens; asked for, they are an error.
+    if (binding.role == Role::depth && binding.encoding.depth_kind == DepthKind::ray && !camera && !options.depth_kind)
+      continue;
     if (binding.role == Role::depth)
       with_context(cat("depth (", binding.why, ")"),
                    [&] { check_depth(binding.encoding, depth_context(options, camera, {})); });
@@ -205,6 +207,9 @@ Resolved resolve(const SourceOptions& options) {
   for (const std::string& view : views_of(out.first)) {
     ViewState state;
     state.roles = bind_roles(out, options, view);
+    for (const RoleBinding& binding : state.roles)
+      refuse_uint(binding.sibling < 0 ? out.first : out.siblings[static_cast<size_t>(binding.sibling)],
+                  binding.channels, info(binding.role).name);
     state.colors = resolve_colors(out.first, view, options.profile, options.channel_overrides, cryptomattes);
     state.part = part_of_view(out.first, view, state.colors);
     state.layers = choose_layers(out.first, view, state.colors, options, cryptomattes);

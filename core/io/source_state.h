@@ -48,6 +48,8 @@ Window data_window(const ExrReader& file, int part);
 void check_same_shape(const FileInfo& frame, const FileInfo& first);
 void check_part(const FileInfo& frame, const FileInfo& first, int part);
 void check_channel(const FileInfo& frame, const FileInfo& first, const ChannelRef& ref, std::string_view use);
+/// Every channel and its type must be that of the first frame.
+void check_channel_set(const FileInfo& frame, const FileInfo& first);
 
 std::string window_text(Window window);  ///< "(0, 0)-(1919, 1079)"
 

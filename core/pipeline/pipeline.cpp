@@ -15,7 +15,15 @@ namespace {
               cat("name the channel with --channel or --role, or leave the stage out with --skip ", id));
 }
 
-void check_roles(const std::string& id, std::string_view method, const Needs& needs, const Offer& offer) {
+void check_needs(const std::string& id, std::string_view method, const Needs& needs, const Offer& offer) {
+  if (needs.position && !offer.position)
+    throw Error(ErrorCode::no_input, cat("stage ", id, " (", method, ") needs to know where the camera stands"),
+                "the header has no camera matrices: give --camera FILE.json, or set " + id + ".reprojection=auto");
+  if (needs.lens && !offer.lens)
+    throw Error(ErrorCode::no_input, cat("stage ", id, " (", method, ") needs to know the camera's field of view"),
+                "the header has no camera matrices: give --fov DEGREES or --camera FILE.json, or leave the stage out "
+                "with --skip " +
+                    id);
   std::vector<std::string> any;
   bool found = needs.any_of.empty();
   for (const RoleInfo& role : kRoles) {
@@ -26,14 +34,6 @@ void check_roles(const std::string& id, std::string_view method, const Needs& ne
     found = found || offer.roles.contains(role.role);
   }
   if (!found) fail_role(id, method, join(any, " or "));
-  if (needs.position && !offer.position)
-    throw Error(ErrorCode::no_input, cat("stage ", id, " (", method, ") needs to know where the camera stands"),
-                "the header has no camera matrices: give --camera FILE.json, or set " + id + ".reprojection=auto");
-  if (needs.lens && !offer.lens)
-    throw Error(ErrorCode::no_input, cat("stage ", id, " (", method, ") needs to know the camera's field of view"),
-                "the header has no camera matrices: give --fov DEGREES or --camera FILE.json, or leave the stage out "
-                "with --skip " +
-                    id);
 }
 
 /// Filters may leave 0..1 by a rounding error.
@@ -74,7 +74,7 @@ ViewPipeline::ViewPipeline(const preset::Preset& preset, std::string view, const
     Entry entry{description.id, make_stage(description.params), {}};
     entry.needs = entry.stage->needs(offer);
     if (entry.needs.layers && !outputs.layers) continue;
-    check_roles(entry.id, preset::method_of(description.params), entry.needs, offer);
+    check_needs(entry.id, preset::method_of(description.params), entry.needs, offer);
     check_order(entry.id, entry.needs, made);
     made.add(entry.needs);
     if (entry.needs.recursive) last_recursive_ = static_cast<int>(stages_.size());

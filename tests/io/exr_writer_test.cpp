@@ -239,11 +239,14 @@ TEST_F(ExrWriter, ObeysTheCompressionOption) {
   const Plane value(3, 3, 1.0F);
   const std::vector<ChannelWrite> writes{{0, "h", value, {0, 10, 2, 12}}};
   for (const std::string name : {"none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"}) {
-    EXPECT_EQ(write(writes, {name}), Names{});
+    const Names notes = write(writes, {name});
+    const bool lossless = name == "none" || name == "rle" || name == "zips" || name == "zip" || name == "piz";
+    ASSERT_EQ(notes.size(), lossless ? 0U : 1U) << name;
+    EXPECT_TRUE(lossless || notes[0].find(name + " loses precision") != std::string::npos) << name;
     EXPECT_EQ(ExrReader(out).info().parts[0].compression, name);
     EXPECT_EQ(tests::decode_all(out)[0].at("u"), tests::decode_all(in)[0].at("u"));
   }
-  EXPECT_EQ(write(writes, {"keep"}), Names{});
+  EXPECT_EQ(write(writes, {"keep"}).size(), 1U) << "b44 loses precision";
   EXPECT_EQ(ExrReader(out).info().parts[0].compression, "b44");
   try {
     write(writes, {"jpeg"});

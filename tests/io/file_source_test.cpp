@@ -188,13 +188,39 @@ TEST_F(FileSourceTest, DamagedFramesAreNamedTwiceAtMost) {
   }
 }
 
+TEST_F(FileSourceTest, AChannelThatComesOrGoesIsNamed) {
+  Picture more;
+  more.channels.emplace_back("extra.R", 1.0F);
+  write("a.0001.exr", Picture{});
+  write("a.0002.exr", more);
+  FileSource source(options());
+  expect_has(message([&] { source.load(2, "", {Role::depth}, true); }, ErrorCode::data),
+             {"frame 2 (", "channels differ", "here only extra.R (float)", "a.0001.exr"});
+}
+
+TEST_F(FileSourceTest, RayDepthThatNobodyAskedForWaitsForALens) {
+  Picture ray;
+  ray.channels.back().first = "hitdist";
+  write("a.0001.exr", ray);
+  EXPECT_FALSE(FileSource(options()).available("").contains(Role::depth));
+  SourceOptions asked = options();
+  asked.depth_kind = DepthKind::ray;
+  expect_has(message([&] { FileSource source(asked); }, ErrorCode::data), {"--fov"});
+}
+
 TEST_F(FileSourceTest, WrongTypesAreNamed) {
   const Plane plane(8, 6, 1.0F);
   NewFile ids{.display_window = {0, 0, 7, 5}, .data_window = {0, 0, 7, 5}, .channels = {}, .matrices = {}, .texts = {}};
   for (const char* name : {"R", "G", "B"}) ids.channels.push_back({name, PixelType::uint, plane});
   write_new_exr(ids, path("ids.0001.exr"));
   expect_has(message([&] { FileSource source(options("ids.####.exr")); }, ErrorCode::data),
-             {"ids.0001.exr", "channel R", "uint"});
+             {"ids.0001.exr", "channel R (colour)", "uint"});
+  NewFile depth = ids;
+  for (NewChannel& channel : depth.channels) channel.type = PixelType::half;
+  depth.channels.push_back({"Z", PixelType::uint, plane});
+  write_new_exr(depth, path("depth.0001.exr"));
+  expect_has(message([&] { FileSource source(options("depth.####.exr")); }, ErrorCode::data),
+             {"depth.0001.exr", "channel Z (depth)", "uint"});
   NewFile text = ids;
   for (NewChannel& channel : text.channels) channel.type = PixelType::half;
   text.texts = {{"worldToCamera", "1 0 0 0"}};
