@@ -83,11 +83,11 @@ TEST(PatternTest, OpenImageIoHashesAreFourDigitsButOthersAreNot) {
 }
 
 TEST(PatternTest, OnlyTheFileNameIsSearched) {
-  const auto pattern = parse_pattern("/mnt/@vol/%d/x.####.exr", HashDigits::one);
+  const auto pattern = parse_pattern("/jobs/@vol/%d/x.####.exr", HashDigits::one);
   ASSERT_TRUE(pattern);
-  EXPECT_EQ(pattern->folder, "/mnt/@vol/%d");
-  EXPECT_EQ(pattern->path(12), "/mnt/@vol/%d/x.0012.exr");
-  EXPECT_EQ(pattern->text(), "/mnt/@vol/%d/x.####.exr");
+  EXPECT_EQ(pattern->folder, "/jobs/@vol/%d");
+  EXPECT_EQ(pattern->path(12), "/jobs/@vol/%d/x.0012.exr");
+  EXPECT_EQ(pattern->text(), "/jobs/@vol/%d/x.####.exr");
   EXPECT_FALSE(parse_pattern("shot.####/beauty.exr", HashDigits::one));
   EXPECT_EQ(parse_pattern("/x.#.exr", HashDigits::one)->path(1), "/x.1.exr");
 }
