@@ -45,9 +45,9 @@ const params::Table& SelectiveTemporalParams::table() {
           .add("selective", &S::selective,
                "Filter only near depth discontinuities; off, every pixel is filtered and moving objects leave trails.")
           .add("reprojection", &S::reprojection, {"auto", "camera"},
-               "Where history is found: by the camera and, where the vectors disagree with it, by the vectors, or by "
+               "Where history is found: by the camera and, where the vectors disagree with it, by the vectors; or by "
                "the "
-               "camera alone.")
+               "camera alone, as the talk has it.")
           .add("agreement_px", &S::agreement_px, {0, 1000},
                "Largest difference between vector and camera motion at which a pixel counts as static.")
           .build();
