@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <iostream>
 
 #include "core/io/file_source.h"
 
@@ -84,6 +85,7 @@ TEST(Yard, MatricesAgreeWithBlendersVectors) {
     const auto near = std::lower_bound(errors.begin(), errors.end(), 0.01) - errors.begin();
     const double share = static_cast<double>(near) / static_cast<double>(errors.size()),
                  median = errors[errors.size() / 2];
+    std::cout << "yard, frame " << f << ": median error " << median << " px, " << 100 * share << " % below 0.01 px\n";
     EXPECT_LT(median, 0.001) << "frame " << f;
     EXPECT_GE(share, 0.7) << "frame " << f;
     RecordProperty("frame_" + std::to_string(f), std::to_string(median) + " px, share " + std::to_string(share));
