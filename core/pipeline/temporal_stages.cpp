@@ -35,7 +35,7 @@ class SelectiveTemporal final : public Stage {
     const filter::Surface& surface = work.surface();
     const Plane mask = stable_mask(work, surface);
     const temporal::Reprojected before = reprojected(work);
-    if (temporal::share_without_history(params_, surface.depth, before, history_) > kCut) {
+    if (temporal::share_without_history(surface.depth, before, history_) > kCut) {
       work.note(cat("frame ", work.frame.number, " looks like a cut: the AO's history starts anew"));
       history_ = {};
     }

@@ -74,8 +74,8 @@ Plane dilate_discontinuities(ConstPlaneView mask, int n) {
   return out;
 }
 
-double share_without_history(const SelectiveTemporalParams& params, ConstPlaneView depth,
-                             const Reprojected& reprojected, const TemporalHistory& history) {
+double share_without_history(ConstPlaneView depth, const Reprojected& reprojected, const TemporalHistory& history) {
+  constexpr float kOtherDepth = 0.1F;
   if (history.ao.empty()) return 0;
   std::vector<int64_t> surface(static_cast<size_t>(depth.height)), lost(surface.size());
   for_rows(depth.height, [&](int y) {
@@ -87,7 +87,7 @@ double share_without_history(const SelectiveTemporalParams& params, ConstPlaneVi
       const bool inside = px >= static_cast<float>(w.min_x) && px <= static_cast<float>(w.max_x) &&
                           py >= static_cast<float>(w.min_y) && py <= static_cast<float>(w.max_y);
       const float stored = inside ? history.depth(static_cast<int>(px) - w.min_x, static_cast<int>(py) - w.min_y) : 0;
-      const bool same = stored > 0 && std::abs(1 - reprojected.depth(x, y) / stored) < params.epsilon;
+      const bool same = stored > 0 && std::abs(1 - reprojected.depth(x, y) / stored) < kOtherDepth;
       lost[static_cast<size_t>(y)] += same ? 0 : 1;
     }
   });

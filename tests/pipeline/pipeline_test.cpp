@@ -207,6 +207,17 @@ TEST(Run, ACutStartsTheHistoryAnew) {
   EXPECT_FALSE(tests::same_pixels(ao_of(1).planes.at(5).at("AO"), ao_of(0).planes.at(5).at("AO")));
 }
 
+TEST(Run, AStrictDepthTestIsNoCut) {
+  ViewPipeline view(preset_of("high-dx11", {"temporal.epsilon=0.00001"}), "", kEverything, {});
+  for (int number = 1; number <= 4; ++number) {
+    Frame frame = tests::blade_frame(number);
+    for (int y = 0; y < 36; ++y)  // a slope: the nearest pixel of the frame before is never at quite the same depth
+      for (int x = 0; x < 48; ++x) frame.planes(Role::depth)[0](x, y) += 0.01F * static_cast<float>(x);
+    for (const std::string& note : view.run(frame, nullptr, true, number == 1).notes)
+      EXPECT_EQ(note.find("cut"), std::string::npos) << note;
+  }
+}
+
 TEST(Run, StagesMarkTheLayersTheyChange) {
   for (const auto& [id, changes] : {std::pair{"ao", false}, {"motion_blur", true}}) {
     preset::Preset preset = preset_of("high-current-gen");
