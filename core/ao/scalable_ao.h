@@ -1,4 +1,5 @@
 #pragma once
+#include "core/ao/estimator.h"
 #include "core/filter/pyramid.h"
 #include "core/filter/sample_grid.h"
 #include "core/filter/surface.h"
@@ -9,9 +10,7 @@ namespace aftershade::ao {
 /// Levels of the depth pyramid that taps read: the image and five mips (SAO's MAX_MIP_LEVEL, algorithms 4.2).
 inline constexpr int kDepthLevels = 6;
 
-enum class Resolution { full, half };
 enum class TapPattern { mirrored, spiral };
-enum class NormalSource { automatic, file, depth };
 
 /// Vicarious Visions' scalable ambient occlusion (Bukowski, Hennessy, McGuire, Osman, SIGGRAPH 2012; seed 004):
 ///   AO_s = max(1 - |v| / r, 0) * max((v / |v|) . n - bias, 0)          "Falloff Function" slide

@@ -1,36 +1,13 @@
+#include "core/pipeline/ao_stage.h"
 #include "core/pipeline/stage.h"
 
 namespace aftershade::pipeline {
 
 namespace {
 
-class ScalableAo final : public Stage {
- public:
-  explicit ScalableAo(const ao::ScalableAoParams& params) : params_(params) {}
-
-  Needs needs(const Offer&) const override {
-    Needs needs;
-    needs.required = {Role::depth};
-    (params_.normals == ao::NormalSource::file ? needs.required : needs.optional).insert(Role::normal);
-    needs.lens = needs.makes_ao = true;
-    needs.makes_ao_at_pixels = params_.resolution == ao::Resolution::full;
-    return needs;
-  }
-
-  void run(Work& work) override {
-    work.choose_normals(params_.normals);
-    const filter::Surface& surface = work.surface();
-    const bool full = params_.resolution == ao::Resolution::full;
-    work.grid = full ? filter::full_grid(surface) : filter::half_grid(surface);
-    work.ao = ao::scalable_ao(params_, surface, work.pyramid(), *work.grid, work.frame.number);
-    work.ao_at_pixels = full;
-    if (work.options.diagnostics)
-      work.frame.added["aftershade.ao_raw"] = filter::values_at_pixels(work.ao, *work.grid, surface);
-  }
-
- private:
-  ao::ScalableAoParams params_;
-};
+Plane scalable(const ao::ScalableAoParams& params, Work& work) {
+  return ao::scalable_ao(params, work.surface(), work.pyramid(), *work.grid, work.frame.number);
+}
 
 class BilateralBlur final : public Stage {
  public:
@@ -105,7 +82,9 @@ class ApplyAo final : public Stage {
 
 }  // namespace
 
-std::unique_ptr<Stage> make_stage(const ao::ScalableAoParams& params) { return std::make_unique<ScalableAo>(params); }
+std::unique_ptr<Stage> make_stage(const ao::ScalableAoParams& params) {
+  return std::make_unique<AoStage<ao::ScalableAoParams, scalable>>(params);
+}
 std::unique_ptr<Stage> make_stage(const filter::BilateralBlurParams& params) {
   return std::make_unique<BilateralBlur>(params);
 }

@@ -1,0 +1,37 @@
+#pragma once
+#include "core/pipeline/stage.h"
+
+namespace aftershade::pipeline {
+
+/// A stage that makes AO of one frame, with no history. `Params` has `resolution` and `normals`; `Estimate` is
+/// Plane(const Params&, Work&) and returns the AO on work.grid.
+template <class Params, Plane (*Estimate)(const Params&, Work&)>
+class AoStage final : public Stage {
+ public:
+  explicit AoStage(const Params& params) : params_(params) {}
+
+  Needs needs(const Offer&) const override {
+    Needs needs;
+    needs.required = {Role::depth};
+    (params_.normals == ao::NormalSource::file ? needs.required : needs.optional).insert(Role::normal);
+    needs.lens = needs.makes_ao = true;
+    needs.makes_ao_at_pixels = params_.resolution == ao::Resolution::full;
+    return needs;
+  }
+
+  void run(Work& work) override {
+    work.choose_normals(params_.normals);
+    const filter::Surface& surface = work.surface();
+    const bool full = params_.resolution == ao::Resolution::full;
+    work.grid = full ? filter::full_grid(surface) : filter::half_grid(surface);
+    work.ao = Estimate(params_, work);
+    work.ao_at_pixels = full;
+    if (work.options.diagnostics)
+      work.frame.added["aftershade.ao_raw"] = filter::values_at_pixels(work.ao, *work.grid, surface);
+  }
+
+ private:
+  Params params_;
+};
+
+}  // namespace aftershade::pipeline
