@@ -1,7 +1,10 @@
 #include "core/temporal/reprojection.h"
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 #include "core/parallel/rows.h"
 
@@ -76,6 +79,29 @@ VelocityPlanes scatter_velocity(ConstPlaneView mv_next_x, ConstPlaneView mv_next
       out.y(to_x, to_y) = -mv_y;
     }
   return out;
+}
+
+double share_without_history(ConstPlaneView depth, const Reprojected& reprojected, ConstPlaneView stored_depth,
+                             Window stored_window) {
+  constexpr float kOtherDepth = 0.1F;
+  if (stored_depth.empty()) return 0;
+  std::vector<int64_t> surface(static_cast<size_t>(depth.height)), lost(surface.size());
+  for_rows(depth.height, [&](int y) {
+    for (int x = 0; x < depth.width; ++x) {
+      if (!(std::isfinite(depth(x, y)) && depth(x, y) > 0)) continue;
+      ++surface[static_cast<size_t>(y)];
+      const float px = std::floor(reprojected.x(x, y)), py = std::floor(reprojected.y(x, y));
+      const Window& w = stored_window;
+      const bool inside = px >= static_cast<float>(w.min_x) && px <= static_cast<float>(w.max_x) &&
+                          py >= static_cast<float>(w.min_y) && py <= static_cast<float>(w.max_y);
+      const float stored = inside ? stored_depth(static_cast<int>(px) - w.min_x, static_cast<int>(py) - w.min_y) : 0;
+      const bool same = stored > 0 && std::abs(1 - reprojected.depth(x, y) / stored) < kOtherDepth;
+      lost[static_cast<size_t>(y)] += same ? 0 : 1;
+    }
+  });
+  const auto total = std::accumulate(surface.begin(), surface.end(), int64_t{0});
+  const auto without = std::accumulate(lost.begin(), lost.end(), int64_t{0});
+  return total > 0 ? static_cast<double>(without) / static_cast<double>(total) : 0;
 }
 
 }  // namespace aftershade::temporal

@@ -20,8 +20,8 @@ struct ReprojectionInput {
   Window window;                             ///< of the planes
   std::optional<CameraReprojection> camera;  ///< now -> before; without it only the vectors are known
   ConstPlaneView mv_prev_x, mv_prev_y;       ///< pixels, may be empty (data == nullptr) or NaN: unknown
-  /// Scattered vectors have holes where nothing of the frame before came: what is seen there was hidden, so it has no past.
-  /// Otherwise an unknown vector leaves the word to the camera.
+  /// Scattered vectors have holes where nothing of the frame before came: what is seen there was hidden, so it has no
+  /// past. Otherwise an unknown vector leaves the word to the camera.
   bool holes_are_invalid = false;
 };
 
@@ -38,5 +38,12 @@ struct VelocityPlanes {
 };
 VelocityPlanes scatter_velocity(ConstPlaneView mv_next_x, ConstPlaneView mv_next_y, ConstPlaneView depth_before,
                                 Window window_before, Window window_now);
+
+/// Share of the surface pixels, 0 to 1, whose past is not in the depth stored for frame i-1 (metres, 0 or +inf:
+/// background): unknown, outside its window, or at a depth that differs by 10 % and more (at the nearest pixel,
+/// whatever a filter's own epsilon is: on a slope it is never exact). Most of a picture without a past is a cut
+/// (algorithms 13). 0 when there is nothing to compare.
+double share_without_history(ConstPlaneView depth, const Reprojected& reprojected, ConstPlaneView stored_depth,
+                             Window stored_window);
 
 }  // namespace aftershade::temporal

@@ -1,10 +1,6 @@
 #include "core/temporal/selective_temporal.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <numeric>
-#include <vector>
 
 #include "core/base/error.h"
 #include "core/parallel/rows.h"
@@ -72,28 +68,6 @@ Plane dilate_discontinuities(ConstPlaneView mask, int n) {
     least_across_rows({along, std::max(y + first, 0), std::min(y + last, mask.height - 1), out.row(y)});
   });
   return out;
-}
-
-double share_without_history(ConstPlaneView depth, const Reprojected& reprojected, const TemporalHistory& history) {
-  constexpr float kOtherDepth = 0.1F;
-  if (history.ao.empty()) return 0;
-  std::vector<int64_t> surface(static_cast<size_t>(depth.height)), lost(surface.size());
-  for_rows(depth.height, [&](int y) {
-    for (int x = 0; x < depth.width; ++x) {
-      if (!(std::isfinite(depth(x, y)) && depth(x, y) > 0)) continue;
-      ++surface[static_cast<size_t>(y)];
-      const float px = std::floor(reprojected.x(x, y)), py = std::floor(reprojected.y(x, y));
-      const Window& w = history.window;
-      const bool inside = px >= static_cast<float>(w.min_x) && px <= static_cast<float>(w.max_x) &&
-                          py >= static_cast<float>(w.min_y) && py <= static_cast<float>(w.max_y);
-      const float stored = inside ? history.depth(static_cast<int>(px) - w.min_x, static_cast<int>(py) - w.min_y) : 0;
-      const bool same = stored > 0 && std::abs(1 - reprojected.depth(x, y) / stored) < kOtherDepth;
-      lost[static_cast<size_t>(y)] += same ? 0 : 1;
-    }
-  });
-  const auto total = std::accumulate(surface.begin(), surface.end(), int64_t{0});
-  const auto without = std::accumulate(lost.begin(), lost.end(), int64_t{0});
-  return total > 0 ? static_cast<double>(without) / static_cast<double>(total) : 0;
 }
 
 Plane selective_temporal_filter(const SelectiveTemporalParams& params, ConstPlaneView ao, ConstPlaneView depth,

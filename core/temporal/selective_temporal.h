@@ -50,11 +50,6 @@ Plane continuity_mask(const SelectiveTemporalParams& params, const filter::Sampl
 /// the image do not count.
 Plane dilate_discontinuities(ConstPlaneView mask, int n);
 
-/// Share of the surface pixels, 0 to 1, whose past is not in `history`: unknown, outside its window, or at a depth that
-/// differs by 10 % and more (at the nearest pixel, whatever epsilon is: on a slope it is never exact). Most of a
-/// picture without a past is a cut (algorithms 13). 0 when there is nothing to compare.
-double share_without_history(ConstPlaneView depth, const Reprojected& reprojected, const TemporalHistory& history);
-
 /// One step of the filter at full resolution. `history` is that of frame i-1 (empty planes: cleared; its window may
 /// differ in place and size) and becomes that of frame i: history.count is N. Returns the filtered AO. All planes cover
 /// `window`; `stable_mask` may be empty when params.selective is false. AO that is not finite counts as 1.
