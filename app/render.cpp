@@ -31,14 +31,14 @@ void print_plan(const Job& job) {
 }
 
 void log_result(const pipeline::Progress& progress, const std::vector<pipeline::ViewPipeline>& views) {
-  for (size_t i = 0; i < progress.results.size(); ++i) {
+  for (size_t i = 0; i < progress.reports.size(); ++i) {
     const std::string view = views[i].view().empty() ? "" : "view " + views[i].view() + ": ";
-    for (const std::string& text : progress.results[i].notes) log().note(view + text);
-    for (const std::string& text : progress.results[i].warnings)
+    for (const std::string& text : progress.reports[i].notes) log().note(view + text);
+    for (const std::string& text : progress.reports[i].warnings)
       log().warning(cat("frame ", progress.number, ": ", view, text));
     if (!log().verbose()) continue;
     std::string times = cat("frame ", progress.number, progress.written ? ": " : " (preroll): ", view);
-    for (const auto& time : progress.results[i].times) times += cat(time.id, " ", fixed(time.milliseconds, 1), " ms  ");
+    for (const auto& time : progress.reports[i].times) times += cat(time.id, " ", fixed(time.milliseconds, 1), " ms  ");
     log().detail(times);
   }
 }
@@ -69,7 +69,7 @@ int run_job(Job& job, const RenderArgs& args) {
     log_result(p, job.views);
     if (p.written) progress.update(p.number, p.done, p.total, p.milliseconds);
   };
-  run.on_error = [&](int, const Error& error) {
+  run.on_error = [&](const Error& error) {
     log().error(error.what());
     if (status == 0) status = exit_status(error.code());
   };

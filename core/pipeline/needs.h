@@ -26,6 +26,10 @@ struct Needs {
   bool layers = false;     ///< changes layers
   bool window = false;     ///< may change the working window: AO made before it loses its grid
   bool recursive = false;  ///< keeps history: a run starts `preroll` frames early
+  /// Frames around its own that it sees as the stages before it leave them; only frames that follow each other without
+  /// a gap are given. The result is a pure function of these frames.
+  int frames_before = 0, frames_after = 0;
+  bool has_window() const { return frames_before > 0 || frames_after > 0; }
 };
 
 }  // namespace aftershade::pipeline

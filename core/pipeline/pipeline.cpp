@@ -1,10 +1,10 @@
 #include "core/pipeline/pipeline.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/pipeline/item.h"
 
 namespace aftershade::pipeline {
 
@@ -36,13 +36,6 @@ void check_needs(const std::string& id, std::string_view method, const Needs& ne
   if (!found) fail_role(id, method, join(any, " or "));
 }
 
-/// Filters may leave 0..1 by a rounding error.
-Plane clamped(Plane ao) {
-  for (int y = 0; y < ao.height(); ++y)
-    for (int x = 0; x < ao.width(); ++x) ao(x, y) = std::clamp(ao(x, y), 0.0F, 1.0F);
-  return ao;
-}
-
 /// What the stages so far leave for the next.
 struct Made {
   bool ao = false, ao_at_pixels = false, grid = false;
@@ -71,13 +64,12 @@ ViewPipeline::ViewPipeline(const preset::Preset& preset, std::string view, const
     : view_(std::move(view)), outputs_(outputs) {
   Made made;
   for (const preset::StageDescription& description : preset.stages) {
-    Entry entry{description.id, make_stage(description.params), {}};
+    Entry entry{description.id, make_stage(description.params), {}, {}};
     entry.needs = entry.stage->needs(offer);
     if (entry.needs.layers && !outputs.layers) continue;
     check_needs(entry.id, preset::method_of(description.params), entry.needs, offer);
     check_order(entry.id, entry.needs, made);
     made.add(entry.needs);
-    if (entry.needs.recursive) last_recursive_ = static_cast<int>(stages_.size());
     stages_.push_back(std::move(entry));
   }
   if (outputs.ao_channel && !made.ao_at_pixels)
@@ -85,47 +77,43 @@ ViewPipeline::ViewPipeline(const preset::Preset& preset, std::string view, const
                 "choose a preset with AO, or leave out --ao and --ao-only");
 }
 
-bool ViewPipeline::changes_layers() const {
-  for (const Entry& entry : stages_)
-    if (entry.needs.layers) return true;
-  return false;
+std::vector<Dependency> ViewPipeline::dependencies() const {
+  std::vector<Dependency> dependencies;
+  for (size_t i = 0; i < stages_.size(); ++i) {
+    const Needs& needs = stages_[i].needs;
+    if (needs.recursive || needs.has_window())
+      dependencies.push_back({i, needs.frames_before, needs.frames_after, needs.recursive});
+  }
+  return dependencies;
 }
 
-RoleSet ViewPipeline::roles(bool written) const {
+/// Does a frame that goes `through` meet this stage, to be run or at least to be shown?
+bool ViewPipeline::sees(size_t stage, size_t through) const {
+  if (stage >= stages_.size()) return false;
+  return stage < through || (stage == through && stages_[stage].needs.has_window());
+}
+
+RoleSet ViewPipeline::roles(size_t through) const {
   RoleSet roles;
-  const int count = written ? static_cast<int>(stages_.size()) : last_recursive_ + 1;
-  for (int i = 0; i < count; ++i) {
-    const Needs& needs = stages_[static_cast<size_t>(i)].needs;
-    roles.insert(needs.required);
-    roles.insert(needs.any_of);
-    roles.insert(needs.optional);
+  for (size_t i = 0; i < stages_.size(); ++i) {
+    if (!sees(i, through)) continue;
+    roles.insert(stages_[i].needs.required);
+    roles.insert(stages_[i].needs.any_of);
+    roles.insert(stages_[i].needs.optional);
   }
   return roles;
+}
+
+bool ViewPipeline::layers(size_t through) const {
+  for (size_t i = 0; i < stages_.size(); ++i)
+    if (sees(i, through) && stages_[i].needs.layers) return true;
+  return false;
 }
 
 RoleSet ViewPipeline::previous_roles() const {
   RoleSet roles;
   for (const Entry& entry : stages_) roles.insert(entry.needs.previous);
   return roles;
-}
-
-ViewPipeline::Result ViewPipeline::run(Frame& frame, const Frame* previous, bool written, bool restart) {
-  if (restart || display_before_ != frame.display)
-    for (Entry& entry : stages_) entry.stage->restart();
-  display_before_ = frame.display;
-  Result result;
-  Work work(frame, previous, outputs_.work);
-  for (size_t i = 0; i < stages_.size(); ++i) {
-    if (!written && static_cast<int>(i) > last_recursive_) break;
-    const auto start = std::chrono::steady_clock::now();
-    stages_[i].stage->run(work);
-    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-    result.times.push_back({stages_[i].id, time.count()});
-  }
-  if (outputs_.ao_channel && written) frame.added[*outputs_.ao_channel] = clamped(std::move(work.ao));
-  result.notes = std::move(work.notes);
-  result.warnings = std::move(work.warnings);
-  return result;
 }
 
 }  // namespace aftershade::pipeline

@@ -1,4 +1,5 @@
 #pragma once
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -20,7 +21,25 @@ struct Outputs {
   WorkOptions work;
 };
 
-/// The stages of a preset at work on one view, frame after frame.
+/// What one frame's way through the stages reports.
+struct FrameReport {
+  struct StageTime {
+    std::string id;
+    double milliseconds;
+  };
+  std::vector<std::string> notes, warnings;
+  std::vector<StageTime> times;
+};
+
+/// A frame that has gone through all the stages it was planned for.
+struct FinishedFrame {
+  Frame frame;
+  bool written;
+  FrameReport report;
+};
+
+/// The stages of a preset at work on one view, frame after frame. A stage that looks ahead holds frames back until it
+/// has seen their neighbours, so frames come out later than they go in, in the same order.
 class ViewPipeline {
  public:
   /// Checks every stage's needs against what the view offers. Throws Error(no_input) naming stage and role that is
@@ -28,42 +47,53 @@ class ViewPipeline {
   ViewPipeline(const preset::Preset& preset, std::string view, const Offer& offer, const Outputs& outputs);
 
   const std::string& view() const { return view_; }
-  bool recursive() const { return last_recursive_ >= 0; }
-  bool changes_layers() const;
-  RoleSet roles(bool written) const;  ///< to load of the frame itself
-  RoleSet previous_roles() const;     ///< to load of the frame before it
+  size_t stages() const { return stages_.size(); }
+  std::vector<Dependency> dependencies() const;  ///< in stage order
+  RoleSet roles(size_t through) const;           ///< to load of a frame that goes `through` (PlannedFrame)
+  bool layers(size_t through) const;             ///< does it need its layers?
+  RoleSet previous_roles() const;                ///< to load of the frame before it
 
-  struct StageTime {
-    std::string id;
-    double milliseconds;
-  };
-  struct Result {
-    std::vector<std::string> notes, warnings;
-    std::vector<StageTime> times;
-  };
-  /// Runs the stages over `frame` in place; a frame that is not written only feeds the history.
-  Result run(Frame& frame, const Frame* previous, bool written, bool restart);
+  /// Feeds the next frame. A failing stage's Error names its frame, which is lost; all others are still there.
+  void push(Frame frame, std::optional<Frame> previous, const PlannedFrame& planned);
+  /// Nothing follows: completes the frames that wait, and forgets all history. After an Error, the rest still wait.
+  void flush();
+  /// The frames completed since the last call, in order.
+  std::vector<FinishedFrame> take_finished() { return std::exchange(finished_, {}); }
 
  private:
+  struct Item;
+  using ItemPtr = std::unique_ptr<Item>;
   struct Entry {
     std::string id;
     std::unique_ptr<Stage> stage;
     Needs needs;
+    std::deque<ItemPtr> waiting;  ///< seen by the stage, which has not run on them yet
   };
+  bool sees(size_t stage, size_t through) const;
+  void run_stage(Entry& entry, Item& item);
+  void advance(ItemPtr item, size_t first);
+  void release(size_t stage);
+  void finish(Item& item);
+
   std::string view_;
   Outputs outputs_;
   std::vector<Entry> stages_;
-  int last_recursive_ = -1;  ///< index of the last stage with history, or -1
+  std::vector<FinishedFrame> finished_;
   std::optional<Window> display_before_;
+
+ public:  // movable, with Item complete only in the source file
+  ~ViewPipeline();
+  ViewPipeline(ViewPipeline&&) noexcept;
+  ViewPipeline& operator=(ViewPipeline&&) noexcept;
 };
 
 /// What a run tells its caller, frame by frame.
 struct Progress {
   int number;
   bool written;
-  size_t done, total;  ///< written frames so far, and in all
-  double milliseconds;
-  std::vector<ViewPipeline::Result> results;  ///< one a view
+  size_t done, total;                ///< written frames so far, and in all
+  double milliseconds;               ///< since the last frame was finished
+  std::vector<FrameReport> reports;  ///< one a view
 };
 
 struct RunOptions {
@@ -72,8 +102,8 @@ struct RunOptions {
   int preroll = 40;          ///< (8/9)^40 = 0.9 % of an older history's weight is left
   bool keep_going = false;   ///< a frame that fails is reported and the run goes on without it
   std::function<void(const Progress&)> on_progress;
-  std::function<void(int frame, const Error&)> on_error;  ///< with keep_going, for each failed frame
-  std::function<bool()> should_stop;                      ///< asked before every frame
+  std::function<void(const Error&)> on_error;  ///< with keep_going, for each failed frame, which the error names
+  std::function<bool()> should_stop;           ///< asked before every frame
 };
 
 /// The frame loop: plans, loads, filters and writes. Returns the number of frames written.

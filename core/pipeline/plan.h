@@ -1,23 +1,32 @@
 #pragma once
+#include <cstddef>
 #include <vector>
 
 namespace aftershade::pipeline {
 
+/// A stage that looks at other frames than its own: at those around it, or at its own past.
+struct Dependency {
+  size_t stage;                             ///< index in the pipeline
+  int frames_before = 0, frames_after = 0;  ///< a window
+  bool recursive = false;
+};
+
 /// A frame that a run visits.
 struct PlannedFrame {
   int number;
-  bool written;   ///< false: only read and filtered, to build up the history of a later frame
-  bool restarts;  ///< the history is forgotten before it: nothing filtered precedes it
+  size_t through;  ///< stages before this one run; this one, if it has a window, is shown the frame
+  bool written;
+  bool restarts;  ///< the history is forgotten before it: nothing visited precedes it
   bool operator==(const PlannedFrame&) const = default;
 };
 
 /// Preroll of all frames before the first written one: exact.
 inline constexpr int kPrerollAll = -1;
 
-/// The frames to visit, in order, so that every one of `written` can be made. `on_disk` and `written` are sorted. A
-/// recursive pipeline also visits up to `preroll` consecutive frames before each written one; a gap on disk ends the
-/// history.
-std::vector<PlannedFrame> plan(const std::vector<int>& written, const std::vector<int>& on_disk, bool recursive,
-                               int preroll);
+/// The frames to visit, in order, so that every one of `written` can be made by `stages` stages. `on_disk` and
+/// `written` are sorted, `dependencies` in stage order. A window adds the neighbours, as far as the stages before it;
+/// history adds up to `preroll` consecutive frames before. A gap on disk ends both.
+std::vector<PlannedFrame> plan(const std::vector<int>& written, const std::vector<int>& on_disk, size_t stages,
+                               const std::vector<Dependency>& dependencies, int preroll);
 
 }  // namespace aftershade::pipeline

@@ -1,5 +1,5 @@
 #include <chrono>
-#include <new>
+#include <map>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -9,70 +9,113 @@ namespace aftershade::pipeline {
 
 namespace {
 
-Frame load_or_fail(FrameSource& source, int number, const std::string& view, RoleSet roles, bool layers) {
-  auto frame = source.load(number, view, roles, layers);
-  if (!frame) throw Error(ErrorCode::no_input, cat("frame ", number, " is missing"));
-  return std::move(*frame);
-}
+/// One run over the planned frames: loads, pushes through every view, writes what all views have finished.
+class Run {
+ public:
+  Run(std::vector<ViewPipeline>& views, FrameSource& source, FrameSink& sink, const RunOptions& options)
+      : views_(views), source_(source), sink_(sink), options_(options) {}
 
-/// Loads and filters every view of one frame; writes it if it is to be written. Source and sink name the frame in their
-/// own errors.
-Progress visit(std::vector<ViewPipeline>& views, FrameSource& source, FrameSink& sink, const PlannedFrame& planned) {
-  Progress progress{planned.number, planned.written, 0, 0, 0, {}};
-  std::vector<Frame> frames;
-  for (ViewPipeline& view : views) {
-    if (!planned.written && !view.recursive()) continue;
-    Frame frame = load_or_fail(source, planned.number, view.view(), view.roles(planned.written),
-                               planned.written && view.changes_layers());
-    std::optional<Frame> previous;
-    if (!planned.restarts && !view.previous_roles().empty())
-      previous = source.load(planned.number - 1, view.view(), view.previous_roles(), false);
-    progress.results.push_back(with_context(cat("frame ", planned.number), [&] {
-      return view.run(frame, previous ? &*previous : nullptr, planned.written, planned.restarts);
-    }));
-    frames.push_back(std::move(frame));
+  size_t go() {
+    const ViewPipeline& any = views_.front();  // all views have the same stages
+    for (const PlannedFrame& planned :
+         plan(options_.written, options_.on_disk, any.stages(), any.dependencies(), options_.preroll)) {
+      if (options_.should_stop && options_.should_stop()) return done_;
+      if (planned.restarts || broken_) flush();
+      attempt([&] { visit(planned); });
+    }
+    flush();
+    return done_;
   }
-  if (planned.written) sink.write(planned.number, frames);
-  return progress;
-}
 
-/// Memory that runs out is this frame's failure, like any other.
-Progress visit_in_memory(std::vector<ViewPipeline>& views, FrameSource& source, FrameSink& sink,
-                         const PlannedFrame& planned) {
-  try {
-    return visit(views, source, sink, planned);
-  } catch (const std::bad_alloc&) {
-    throw Error(ErrorCode::memory, cat("frame ", planned.number, ": out of memory"), "fewer --threads need less");
+ private:
+  /// A failure is this frame's; with keep_going the run goes on, but no history and no window reaches over it.
+  template <class Work>
+  bool attempt(Work&& work) {
+    bool ok = true;
+    try {
+      work();
+    } catch (const Error& error) {
+      if (!options_.keep_going) throw;
+      ok = false;
+      broken_ = true;
+      if (options_.on_error) options_.on_error(error);
+    }
+    return ok;
   }
-}
+
+  void flush() {
+    for (ViewPipeline& view : views_)
+      while (!attempt([&] { view.flush(); })) {
+      }
+    broken_ = false;
+    while (!attempt([&] { write_finished(); })) {
+    }
+    pending_.clear();  // what is left has failed in another view
+  }
+
+  /// Memory that runs out while a frame is read is its failure, like any other.
+  std::optional<Frame> load(int number, const std::string& view, RoleSet roles, bool layers) {
+    try {
+      return source_.load(number, view, roles, layers);
+    } catch (const std::bad_alloc&) {
+      throw Error(ErrorCode::memory, cat("frame ", number, ": out of memory"), "fewer --threads need less");
+    }
+  }
+
+  void visit(const PlannedFrame& planned) {
+    for (ViewPipeline& view : views_) {
+      auto frame = load(planned.number, view.view(), view.roles(planned.through), view.layers(planned.through));
+      if (!frame) throw Error(ErrorCode::no_input, cat("frame ", planned.number, " is missing"));
+      std::optional<Frame> previous;
+      if (!planned.restarts && !view.previous_roles().empty())
+        previous = load(planned.number - 1, view.view(), view.previous_roles(), false);
+      view.push(std::move(*frame), std::move(previous), planned);
+    }
+    write_finished();
+  }
+
+  /// A frame is written once all its views are finished. Source and sink name the frame in their own errors.
+  void write_finished() {
+    for (ViewPipeline& view : views_)
+      for (FinishedFrame& finished : view.take_finished())
+        pending_[finished.frame.number].push_back(std::move(finished));
+    while (!pending_.empty() && pending_.begin()->second.size() == views_.size()) {
+      auto node = pending_.extract(pending_.begin());
+      write(node.key(), std::move(node.mapped()));
+    }
+  }
+
+  void write(int number, std::vector<FinishedFrame> views) {
+    Progress progress{number, views.front().written, done_, options_.written.size(), 0, {}};
+    std::vector<Frame> frames;
+    for (FinishedFrame& view : views) {
+      frames.push_back(std::move(view.frame));
+      progress.reports.push_back(std::move(view.report));
+    }
+    if (progress.written) {
+      sink_.write(number, frames);
+      progress.done = ++done_;
+    }
+    const auto now = std::chrono::steady_clock::now();
+    progress.milliseconds = std::chrono::duration<double, std::milli>(now - last_).count();
+    last_ = now;
+    if (options_.on_progress) options_.on_progress(progress);
+  }
+
+  std::vector<ViewPipeline>& views_;
+  FrameSource& source_;
+  FrameSink& sink_;
+  const RunOptions& options_;
+  std::map<int, std::vector<FinishedFrame>> pending_;
+  size_t done_ = 0;
+  bool broken_ = false;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
 
 }  // namespace
 
 size_t run(std::vector<ViewPipeline>& views, FrameSource& source, FrameSink& sink, const RunOptions& options) {
-  bool recursive = false;
-  for (const ViewPipeline& view : views) recursive = recursive || view.recursive();
-  size_t done = 0;
-  bool broken = false;  // the frame before failed: the history cannot go on over it
-  for (PlannedFrame planned : plan(options.written, options.on_disk, recursive, options.preroll)) {
-    if (options.should_stop && options.should_stop()) break;
-    planned.restarts = planned.restarts || broken;
-    const auto start = std::chrono::steady_clock::now();
-    try {
-      Progress progress = visit_in_memory(views, source, sink, planned);
-      broken = false;
-      done += planned.written ? 1 : 0;
-      progress.done = done;
-      progress.total = options.written.size();
-      progress.milliseconds =
-          std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-      if (options.on_progress) options.on_progress(progress);
-    } catch (const Error& error) {
-      if (!options.keep_going) throw;
-      broken = true;
-      if (options.on_error) options.on_error(planned.number, error);
-    }
-  }
-  return done;
+  return Run(views, source, sink, options).go();
 }
 
 }  // namespace aftershade::pipeline

@@ -12,6 +12,10 @@ class Stage {
  public:
   virtual ~Stage() = default;
   virtual Needs needs(const Offer& offer) const = 0;
+  /// A stage that needs frames around its own (Needs::frames_before, frames_after) is shown every frame, in order, as
+  /// the stages before it leave it, and keeps what it needs: all that it can see of frame f's neighbours has been shown
+  /// before run() is called for f. Frames that only serve as neighbours are never run.
+  virtual void observe(const Work&) {}
   virtual void run(Work& work) = 0;
   /// Forgets the history: first frame, gap, change of the display window.
   virtual void restart() {}

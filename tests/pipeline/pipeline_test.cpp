@@ -154,7 +154,7 @@ TEST(Run, CarriedForwardVectorsReplaceMissingBackwardOnes) {
   options.on_disk = source.numbers();
   std::vector<std::string> notes;
   options.on_progress = [&](const Progress& progress) {
-    for (const auto& result : progress.results) notes.insert(notes.end(), result.notes.begin(), result.notes.end());
+    for (const auto& report : progress.reports) notes.insert(notes.end(), report.notes.begin(), report.notes.end());
   };
   run(views, source, sink, options);
   EXPECT_TRUE(std::any_of(notes.begin(), notes.end(),
@@ -213,7 +213,9 @@ TEST(Run, AStrictDepthTestIsNoCut) {
     Frame frame = tests::blade_frame(number);
     for (int y = 0; y < 36; ++y)  // a slope: the nearest pixel of the frame before is never at quite the same depth
       for (int x = 0; x < 48; ++x) frame.planes(Role::depth)[0](x, y) += 0.01F * static_cast<float>(x);
-    for (const std::string& note : view.run(frame, nullptr, true, number == 1).notes)
+    view.push(std::move(frame), std::nullopt, {number, view.stages(), true, number == 1});
+    const std::vector<FinishedFrame> finished = view.take_finished();
+    for (const std::string& note : finished.at(0).report.notes)
       EXPECT_EQ(note.find("cut"), std::string::npos) << note;
   }
 }
@@ -222,9 +224,9 @@ TEST(Run, StagesMarkTheLayersTheyChange) {
   for (const auto& [id, changes] : {std::pair{"ao", false}, {"motion_blur", true}}) {
     preset::Preset preset = preset_of("high-current-gen");
     std::erase_if(preset.stages, [&](const auto& stage) { return stage.id != id; });
-    Frame frame = tests::blade_frame(1);
-    ViewPipeline(preset, "", kEverything, {}).run(frame, nullptr, true, true);
-    EXPECT_EQ(frame.layers.front().changed, changes) << id;
+    ViewPipeline view(preset, "", kEverything, {});
+    view.push(tests::blade_frame(1), std::nullopt, {1, view.stages(), true, true});
+    EXPECT_EQ(view.take_finished().at(0).frame.layers.front().changed, changes) << id;
   }
 }
 
@@ -240,7 +242,7 @@ TEST(Run, OutOfMemoryIsAFailureOfItsFrame) {
   options.written = options.on_disk = {1, 2};
   options.keep_going = true;
   std::vector<ErrorCode> codes;
-  options.on_error = [&](int, const Error& error) { codes.push_back(error.code()); };
+  options.on_error = [&](const Error& error) { codes.push_back(error.code()); };
   EXPECT_EQ(run(views, source, sink, options), 1U);
   EXPECT_EQ(codes, std::vector<ErrorCode>{ErrorCode::memory});
 }
@@ -259,7 +261,7 @@ TEST(Run, KeepGoingReportsTheFrameAndRestartsTheHistory) {
   EXPECT_THROW(run(views, source, sink, options), Error);
   std::vector<std::string> errors;
   options.keep_going = true;
-  options.on_error = [&](int, const Error& error) { errors.emplace_back(error.what()); };
+  options.on_error = [&](const Error& error) { errors.emplace_back(error.what()); };
   EXPECT_EQ(run(views, source, sink, options), 4U);
   EXPECT_EQ(errors, std::vector<std::string>{"frame 3 is damaged"});
   const MemorySink alone = run_blades(preset_of("high-dx11"), {4}, 0);
@@ -304,7 +306,7 @@ TEST(Run, DataWindowKeepsAndSaysWhatIsCutOffOrGrows) {
     RunOptions options;
     options.written = options.on_disk = {1};
     std::vector<std::string> warnings;
-    options.on_progress = [&](const Progress& progress) { warnings = progress.results.front().warnings; };
+    options.on_progress = [&](const Progress& progress) { warnings = progress.reports.front().warnings; };
     run(views, source, sink, options);
     EXPECT_EQ(warnings.size(), grow ? 0U : 1U);
     EXPECT_EQ(sink.windows.at(1).width() > 8, grow);
