@@ -7,16 +7,10 @@
 #include <vector>
 
 #include "core/math/sampling.h"
+#include "tests/metrics/metric_planes.h"
 
 namespace aftershade::metrics {
 namespace {
-
-Plane plane_of(int width, const std::vector<float>& values) {
-  Plane plane(width, static_cast<int>(values.size()) / width);
-  for (size_t i = 0; i < values.size(); ++i)
-    plane(static_cast<int>(i) % width, static_cast<int>(i) / width) = values[i];
-  return plane;
-}
 
 Plane noise(int width, int height, uint32_t seed) {
   Plane plane(width, height);
