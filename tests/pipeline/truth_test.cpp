@@ -3,15 +3,9 @@
 // are printed.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <iostream>
 
-#include "core/io/file_source.h"
-#include "core/metrics/image_metrics.h"
-#include "core/pipeline/pipeline.h"
-#include "tests/pipeline/memory_sequence.h"
+#include "tests/pipeline/ao_quality.h"
 #include "tests/support/scene_source.h"
 #include "tests/support/scenes.h"
 #include "tests/support/truth_cache.h"
@@ -19,40 +13,24 @@
 namespace aftershade::pipeline {
 namespace {
 
-namespace fs = std::filesystem;
-const Offer kEverything{{Role::depth, Role::normal, Role::velocity_prev, Role::velocity_next}, true, true};
+using tests::run_over;
 
-preset::Preset only(const std::string& name, const std::vector<std::string>& ids,
-                    const std::vector<std::string>& sets = {}) {
+preset::Preset only(const std::string& name, const std::string& id, const std::vector<std::string>& sets = {}) {
   preset::Preset preset = preset::load_preset(name, sets).preset;
-  std::erase_if(preset.stages,
-                [&](const auto& stage) { return std::find(ids.begin(), ids.end(), stage.id) == ids.end(); });
+  std::erase_if(preset.stages, [&](const auto& stage) { return stage.id != id; });
   return preset;
-}
-
-tests::MemorySink run_preset(const preset::Preset& preset, FrameSource& source, std::vector<int> frames,
-                             const Outputs& outputs) {
-  std::vector<ViewPipeline> views;
-  views.emplace_back(preset, "", kEverything, outputs);
-  tests::MemorySink sink;
-  RunOptions options;
-  options.written = options.on_disk = std::move(frames);
-  run(views, source, sink, options);
-  return sink;
 }
 
 metrics::Rgb rgb(const std::map<std::string, Plane>& planes, const std::string& prefix = "") {
   return {planes.at(prefix + "R"), planes.at(prefix + "G"), planes.at(prefix + "B")};
 }
 
-const std::vector<std::string> kAo = {"ao", "blur", "upsample", "temporal"};
-
 TEST(SceneTruth, AoOfTheColumnsResemblesTheRayTracedOne) {
   constexpr int width = 240, height = 135;
   const tests::Scene& scene = tests::find_scene("columns");
   tests::SceneSource source(scene, {width, height, 1}, 1, 4);
   const Plane truth = tests::cached_ao_truth("columns", 4, width, height, {});
-  const tests::MemorySink sink = run_preset(only("high-dx11", kAo), source, {1, 2, 3, 4}, {"AO", true, {}});
+  const tests::MemorySink sink = run_over(tests::ao_part("high-dx11"), source, {1, 2, 3, 4});
   const Plane& ao = sink.planes.at(4).at("AO");
   const double rmse = metrics::rmse(ao, truth), correlation = metrics::correlation(ao, truth);
   std::cout << "columns, high-dx11: RMSE " << rmse << ", correlation " << correlation << "\n";
@@ -67,8 +45,8 @@ TEST(SceneTruth, BlurOfCrossingObjectsComesCloserToTheTruth) {
   tests::SceneSource source(scene, settings, 4, 4);
   const Frame sharp = *source.load(4, "", {}, true);
   const preset::Preset blur =
-      only("high-dx11", {"motion_blur"}, {"motion_blur.max_radius_px=320"});  // no clamp at 135 lines
-  const tests::MemorySink sink = run_preset(blur, source, {4}, {});
+      only("high-dx11", "motion_blur", {"motion_blur.max_radius_px=320"});  // no clamp at 135 lines
+  const tests::MemorySink sink = run_over(blur, source, {4}, {});
   const metrics::Rgb target{truth[0], truth[1], truth[2]};
   const auto& before = sharp.layers.front().planes;
   const double psnr_before = metrics::display_psnr({before[0], before[1], before[2]}, target);
@@ -95,7 +73,7 @@ TEST(Scale, APresetMeansTheSameAt720LinesAndAt4K) {
   for (const int factor : {1, 3}) {
     const tests::Scene& scene = tests::find_scene("columns");
     tests::SceneSource source(scene, {1280 * factor, 720 * factor, 1}, 4, 4);
-    tests::MemorySink sink = run_preset(preset::load_preset("high-dx11").preset, source, {4}, {"AO", true, {}});
+    tests::MemorySink sink = run_over(preset::load_preset("high-dx11").preset, source, {4});
     for (const auto& [channel, plane] : sink.planes.at(4)) results[factor][channel] = downsampled(plane, factor);
   }
   const double ao = metrics::rmse(results[1].at("AO"), results[3].at("AO"));
@@ -109,30 +87,20 @@ TEST(Scale, APresetMeansTheSameAt720LinesAndAt4K) {
 class Yard : public testing::Test {
  protected:
   void SetUp() override {
-    const char* data = std::getenv("AFTERSHADE_DATA");
-    folder_ = fs::path(data ? data : AFTERSHADE_SOURCE_DIR "/../shared/data") / "yard";
-    if (!fs::exists(folder_)) GTEST_SKIP() << "NOT TESTED: no public data at " << folder_ << " (set AFTERSHADE_DATA)";
+    if (tests::yard_folder().empty()) GTEST_SKIP() << "NOT TESTED: no public data (set AFTERSHADE_DATA)";
   }
-  io::FileSource open(const std::string& name, const std::map<std::string, std::string>& channels = {}) const {
-    io::SourceOptions options;
-    options.sequence = io::find_sequence((folder_ / (name + ".####.exr")).string(), io::HashDigits::one).sequence;
-    options.profile = io::load_profile(name == "yard" ? "blender" : "generic");
-    options.channel_overrides = channels;
-    return io::FileSource(std::move(options));
-  }
-  fs::path folder_;
 };
 
 TEST_F(Yard, MotionBlurComesCloserToTheTrueOneOnEveryFrame) {
-  io::FileSource source = open("yard"), truth = open("yard_blur");
-  const preset::Preset blur = only("high-dx11", {"motion_blur"});
+  io::FileSource source = tests::open_yard("yard"), truth = tests::open_yard("yard_blur");
+  const preset::Preset blur = only("high-dx11", "motion_blur");
   double sum = 0, sum_before = 0;
   for (int frame = 1; frame <= 12; ++frame) {
     const Frame target = *truth.load(frame, "", {}, true), sharp = *source.load(frame, "", {}, true);
     const auto planes = [](const Frame& f) {
       return metrics::Rgb{f.layers[0].planes[0], f.layers[0].planes[1], f.layers[0].planes[2]};
     };
-    const tests::MemorySink sink = run_preset(blur, source, {frame}, {});
+    const tests::MemorySink sink = run_over(blur, source, {frame}, {});
     const double before = metrics::display_psnr(planes(sharp), planes(target));
     const double after = metrics::display_psnr(rgb(sink.planes.at(frame), "ViewLayer.Combined."), planes(target));
     EXPECT_GT(after, before + 2.5) << "frame " << frame;
@@ -145,25 +113,11 @@ TEST_F(Yard, MotionBlurComesCloserToTheTrueOneOnEveryFrame) {
 
 TEST_F(Yard, AoResemblesTheRayTracedOne) {
   for (const auto& [name, least] : {std::pair{"high-dx11", 0.75}, {"high-current-gen", 0.45}, {"ultra-dx11", 0.75}}) {
-    io::FileSource source = open("yard"), truth = open("yard_ao");
-    const tests::MemorySink sink =
-        run_preset(only(name, kAo), source, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, {"AO", true, {}});
-    double rmse = 0, bias = 0, correlation = 0;
-    for (int frame = 1; frame <= 12; ++frame) {
-      const Frame target = *truth.load(frame, "", {Role::ao}, false),
-                  input = *source.load(frame, "", {Role::depth}, false);
-      Plane mask(input.window.width(), input.window.height());
-      for (int y = 0; y < mask.height(); ++y)
-        for (int x = 0; x < mask.width(); ++x) mask(x, y) = std::isfinite(input.depth()(x, y)) ? 1.0F : 0.0F;
-      const Plane &ao = sink.planes.at(frame).at("AO"), &want = target.planes(Role::ao)[0];
-      rmse += metrics::rmse(ao, want, mask) / 12;
-      bias += metrics::mean_error(ao, want, mask) / 12;
-      correlation += metrics::correlation(ao, want, mask) / 12;
-    }
-    std::cout << "yard, " << name << ": RMSE " << rmse << ", bias " << bias << ", correlation " << correlation
-              << " (mean of 12 frames)\n";
-    EXPECT_GT(correlation, least) << name;
-    EXPECT_LT(rmse, 0.26) << name;
+    const tests::AoScore score = tests::yard_score(tests::ao_part(name));
+    std::cout << "yard, " << name << ": RMSE " << score.rmse << ", bias " << score.bias << ", correlation "
+              << score.correlation << " (mean of 12 frames)\n";
+    EXPECT_GT(score.correlation, least) << name;
+    EXPECT_LT(score.rmse, 0.26) << name;
   }
 }
 
