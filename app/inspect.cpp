@@ -78,10 +78,9 @@ Json view_report(const Input& input, const std::string& view, int number, const 
   report["camera"] = camera_report(*frame);
   if (frame->shutter_angle_deg) report["shutter_angle_deg"] = params::json_of(*frame->shutter_angle_deg);
   std::optional<DepthStatistics> depth;
-  if (frame->has(Role::depth)) {
-    depth = depth_statistics(frame->depth());
-    report["depth"] = text_of(*depth);
-  }
+  if (frame->has(Role::depth)) depth = depth_statistics(frame->depth());
+  if (depth) report["depth"] = text_of(*depth);
+  if (frame->has(Role::depth2)) report["depth2"] = text_of(depth_statistics(frame->planes(Role::depth2)[0]));
   for (const Role role : {Role::velocity_prev, Role::velocity_next})
     if (frame->has(role))
       report[std::string(info(role).name)] =

@@ -23,8 +23,8 @@ void add_input(std::vector<Option<Args>>& t) {
   t.push_back({"--view", "NAME", &Args::views, "a view of a multi-view file; may be repeated; all views by default"});
   t.push_back({"--profile", "NAME|FILE", &Args::profile, "producer profile; recognised from the file by default"});
   t.push_back({"--channel", "ROLE=NAMES", &Args::channels,
-               "the channels of a role, such as depth=foo.Z or velocity_next=mv.x,mv.y; roles: color, depth, normal, "
-               "velocity_prev, velocity_next, ambient, ao"});
+               "the channels of a role, such as depth=foo.Z or velocity_next=mv.x,mv.y; roles: color, depth, depth2, "
+               "normal, velocity_prev, velocity_next, ambient, ao"});
   t.push_back(
       {"--role", "ROLE=INPUT", &Args::roles, "takes a role from another sequence, such as depth=depth.####.exr"});
   t.push_back({"--depth-kind", "KIND", &Args::depth_kind, "how depth is stored", depth_kind_names()});

@@ -23,6 +23,8 @@ void check_depth(const Encoding& encoding, const DepthContext& context);
 /// whose median is negative is turned round first (producers that write camera-space z looking along -Z). Throws what
 /// check_depth throws.
 void convert_depth(PlaneView depth, const Encoding& encoding, const DepthContext& context);
+/// Second depths that are not beyond the first (both converted) become +inf: nothing lies behind there.
+void drop_not_beyond(PlaneView depth2, ConstPlaneView depth);
 
 /// Stored normals to unit vectors in camera space that face the camera; (0, 0, 0) where there is none (shorter than
 /// 0.1). World-space normals need the camera's position; without a lens every view ray is taken to be the axis.

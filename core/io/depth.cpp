@@ -93,4 +93,11 @@ void convert_depth(PlaneView depth, const Encoding& encoding, const DepthContext
   });
 }
 
+void drop_not_beyond(PlaneView depth2, ConstPlaneView depth) {
+  for_rows(depth2.height, [&](int y) {
+    for (int x = 0; x < depth2.width; ++x)
+      if (!(depth2(x, y) > depth(x, y))) depth2(x, y) = std::numeric_limits<float>::infinity();
+  });
+}
+
 }  // namespace aftershade::io

@@ -18,7 +18,7 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// What a plane holds where the file has no pixel, before conversion (conventions 5).
-float outside(Role role) { return role == Role::depth ? kInfinity : kNan; }
+float outside(Role role) { return is_depth(role) ? kInfinity : kNan; }
 
 std::optional<float> shutter_angle(const ExrReader& file) {
   for (int part = 0; part < static_cast<int>(file.info().parts.size()); ++part)
@@ -156,7 +156,7 @@ std::vector<const RoleBinding*> FileSource::State::prepare_roles(Frame& frame, c
     auto& planes = frame.planes(binding.role);
     planes.resize(binding.channels.size());
     for (size_t i = 0; i < planes.size(); ++i)
-      reader.add(*files.find(binding.sibling), binding.channels[i], planes[i], binding.role == Role::depth);
+      reader.add(*files.find(binding.sibling), binding.channels[i], planes[i], is_depth(binding.role));
   }
   return roles;
 }
@@ -166,6 +166,10 @@ void FileSource::State::convert(Frame& frame, const RoleBinding& binding) const 
   switch (binding.role) {
     case Role::depth:
       return convert_depth(planes[0], binding.encoding, depth_context(options, frame.camera, frame.window));
+    case Role::depth2:
+      convert_depth(planes[0], binding.encoding, depth_context(options, frame.camera, frame.window));
+      if (frame.has(Role::depth)) drop_not_beyond(planes[0], frame.depth());
+      return;
     case Role::normal:
       return convert_normals(planes, binding.encoding, frame.camera, frame.window);
     case Role::velocity_prev:
@@ -224,6 +228,7 @@ FileSource::~FileSource() = default;
 std::optional<Frame> FileSource::load(int number, const std::string& view, RoleSet asked, bool with_layers) {
   const std::string* path = state_->options.sequence.path(number);
   if (!path) return std::nullopt;
+  if (asked.contains(Role::depth2)) asked.insert(Role::depth);
   return with_context(cat("frame ", number, " (", *path, ")"), [&]() -> std::optional<Frame> {
     const State& state = *state_;
     const ViewState& offer = state.view(view);

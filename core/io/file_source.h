@@ -56,6 +56,7 @@ class FileSource final : public FrameSource {
  public:
   explicit FileSource(SourceOptions options);
   ~FileSource() override;
+  /// Whoever asks for depth2 gets depth too: where the second is not beyond the first, it is +inf.
   /// May be called by several threads at once, if on_nan and on_note may: they are called by the loading threads.
   std::optional<Frame> load(int number, const std::string& view, RoleSet roles, bool with_layers) override;
 

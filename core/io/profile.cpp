@@ -69,6 +69,8 @@ std::vector<std::string> candidate_keys(Role role) {
     case Role::depth:
       keys.insert(keys.end(), {"kind", "background_above", "zero_is_background"});
       break;
+    case Role::depth2:
+      return {"channels"};
     case Role::normal:
       keys.push_back("space");
       break;

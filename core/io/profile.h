@@ -59,8 +59,8 @@ struct Profile {
     std::string channel;              ///< or a channel name pattern
   };
   std::vector<Sign> detect;
-  std::vector<std::vector<std::string>> color;  ///< R G B [A], in order of preference
-  std::array<std::vector<Candidate>, kRoleCount> roles;
+  std::vector<std::vector<std::string>> color;           ///< R G B [A], in order of preference
+  std::array<std::vector<Candidate>, kRoleCount> roles;  ///< depth2 is encoded as depth is: its candidates are names
   CameraAttributes camera;
   std::string unit = "m";
 };

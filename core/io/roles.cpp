@@ -17,10 +17,20 @@ bool is_vector_z(const ViewChannels& channels, const NamedChannel& channel) {
   return channels.find(prefix + "X", channel.ref.part) && channels.find(prefix + "Y", channel.ref.part);
 }
 
+/// Is it what `profile` calls the second depth? Then the Z of a part "depth2" is not taken for the first one.
+bool is_second_depth(const ViewChannels& channels, const NamedChannel& channel, const Profile& profile) {
+  return std::ranges::any_of(profile.roles[static_cast<size_t>(Role::depth2)], [&](const Candidate& candidate) {
+    return channels.matches(channel.ref, candidate.channels.front());
+  });
+}
+
 /// A candidate bound to channels. One part is preferred, but some producers write one part a pass.
 std::optional<std::vector<ChannelRef>> bind_role(const ViewChannels& channels, const std::vector<std::string>& patterns,
-                                                 Role role) {
-  const auto usable = [&](const NamedChannel& first) { return role != Role::depth || !is_vector_z(channels, first); };
+                                                 Role role, const Profile& profile) {
+  const auto usable = [&](const NamedChannel& first) {
+    if (role == Role::depth && is_second_depth(channels, first, profile)) return false;
+    return !is_depth(role) || !is_vector_z(channels, first);
+  };
   return channels.bind(patterns, patterns.size(), usable, /*one_part=*/false);
 }
 
@@ -76,7 +86,7 @@ std::vector<RoleBinding> resolve_roles(const FileInfo& info, const std::string& 
       continue;
     }
     for (const Candidate& candidate : profile.roles[static_cast<size_t>(role.role)])
-      if (auto refs = bind_role(channels, candidate.channels, role.role)) {
+      if (auto refs = bind_role(channels, candidate.channels, role.role, profile)) {
         out.push_back({role.role, std::move(*refs), candidate.encoding,
                        cat("profile ", profile.name, ": ", join(candidate.channels, ", "))});
         break;

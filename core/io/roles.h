@@ -41,7 +41,7 @@ std::optional<std::string> name_in_view(const FileInfo& info, int part, const st
                                         const std::string& view);
 
 /// The roles of a view: user overrides first ("depth" -> "foo.Z", comma lists for roles of several planes), else the
-/// profile's candidates in order. A `*.Z` beside X and Y is a vector's component and never depth. Throws
+/// profile's candidates in order. A `*.Z` beside X and Y is a vector's component and never a depth. Throws
 /// Error(no_input) when an override names a channel that does not exist (with the nearest name), Error(usage) for an
 /// unknown role (the key "color" is resolve_colors' own).
 std::vector<RoleBinding> resolve_roles(const FileInfo& info, const std::string& view, const Profile& profile,

@@ -67,6 +67,16 @@ RoleBinding bind_sibling(const FileInfo& info, const std::string& main_view, con
   return out;
 }
 
+/// How depth is stored, the second like the first: as its channel says, without one as the profile's first candidate.
+Encoding depth_encoding(const std::vector<RoleBinding>& roles, const SourceOptions& options) {
+  const auto& candidates = options.profile.roles[static_cast<size_t>(Role::depth)];
+  Encoding encoding = candidates.empty() ? Encoding{} : candidates.front().encoding;
+  if (const auto depth = std::ranges::find(roles, Role::depth, &RoleBinding::role); depth != roles.end())
+    encoding = depth->encoding;
+  if (options.depth_kind) encoding.depth_kind = *options.depth_kind;
+  return encoding;
+}
+
 std::vector<RoleBinding> bind_roles(const Resolved& resolved, const SourceOptions& options, const std::string& view) {
   auto overrides = options.channel_overrides;
   for (const Sibling& sibling : options.siblings) overrides.erase(std::string(info(sibling.role).name));
@@ -76,8 +86,9 @@ std::vector<RoleBinding> bind_roles(const Resolved& resolved, const SourceOption
     roles.push_back(bind_sibling(resolved.siblings[i], view, options, i));
   }
   std::sort(roles.begin(), roles.end(), [](const RoleBinding& a, const RoleBinding& b) { return a.role < b.role; });
+  Encoding depth = depth_encoding(roles, options);
   for (RoleBinding& binding : roles)
-    if (binding.role == Role::depth && options.depth_kind) binding.encoding.depth_kind = *options.depth_kind;
+    if (is_depth(binding.role)) binding.encoding = depth;
   return roles;
 }
 
@@ -176,10 +187,10 @@ const std::string& first_path(const Sequence& sequence, int number) {
 void check_roles(ViewState& state, const SourceOptions& options, const std::optional<Camera>& camera) {
   for (const RoleBinding& binding : state.roles) {
     // Ray distances that only a profile guessed are left aside without a lens; asked for, they are an error.
-    if (binding.role == Role::depth && binding.encoding.depth_kind == DepthKind::ray && !camera && !options.depth_kind)
+    if (is_depth(binding.role) && binding.encoding.depth_kind == DepthKind::ray && !camera && !options.depth_kind)
       continue;
-    if (binding.role == Role::depth)
-      with_context(cat("depth (", binding.why, ")"),
+    if (is_depth(binding.role))
+      with_context(cat(info(binding.role).name, " (", binding.why, ")"),
                    [&] { check_depth(binding.encoding, depth_context(options, camera, {})); });
     const bool needs_position = binding.role == Role::normal && binding.encoding.normal_space == NormalSpace::world;
     if (!needs_position || (camera && camera->world_to_camera)) state.available.insert(binding.role);

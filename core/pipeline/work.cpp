@@ -6,7 +6,7 @@ namespace aftershade::pipeline {
 
 namespace {
 float background_of(Role role) {
-  if (role == Role::depth) return std::numeric_limits<float>::infinity();
+  if (is_depth(role)) return std::numeric_limits<float>::infinity();
   if (role == Role::velocity_prev || role == Role::velocity_next) return std::numeric_limits<float>::quiet_NaN();
   return 0;
 }

@@ -94,6 +94,13 @@ TEST(ConvertDepth, Inverse) {
             (std::vector<float>{2, kInf, 0.5F, kInf, kInf}));
 }
 
+TEST(ConvertDepth, TheSecondLiesBeyondTheFirstOrNowhere) {
+  Plane second = row({3, 2, 1.5F, kInf, 5, kInf, 4});
+  drop_not_beyond(second, row({2, 2, 2, 2, kInf, kInf, 3.5F}));
+  EXPECT_EQ((std::vector<float>{second.row(0), second.row(0) + 7}),
+            (std::vector<float>{3, kInf, kInf, kInf, kInf, kInf, 4}));
+}
+
 TEST(ConvertNormals, WorldNormalsTurnIntoTheCameraAndFaceIt) {
   Camera camera = camera_from_fov(90, 1, 0, 0, 2, 1);
   Mat4 view;  // the camera looks along the world X axis backwards

@@ -198,6 +198,49 @@ TEST_F(FileSourceTest, AChannelThatComesOrGoesIsNamed) {
              {"frame 2 (", "channels differ", "here only extra.R (float)", "a.0001.exr"});
 }
 
+TEST_F(FileSourceTest, ASecondDepthIsConvertedAsTheFirst) {
+  Picture picture;
+  picture.channels.emplace_back("depth2.Z", 3.0F);
+  write("a.0001.exr", picture, [](const std::string& channel, Plane& plane) {
+    if (channel == "depth2.Z") plane(0, 0) = 1, plane(1, 0) = 1e10F, plane(2, 0) = std::nanf("");
+    if (channel == "Z") plane(3, 0) = 1e10F;
+  });
+  SourceOptions input = options();
+  input.metres_per_unit = 0.5;
+  const auto second = [&](const SourceOptions& how) {
+    Frame frame = *FileSource(how).load(1, "", {Role::depth2}, false);
+    EXPECT_TRUE(frame.has(Role::depth)) << "what lies behind is judged by it";
+    return std::move(frame.planes(Role::depth2).at(0));
+  };
+  const Plane planar = second(input);
+  for (int x = 0; x < 4; ++x)
+    EXPECT_EQ(planar(x, 0), kInf) << "before the first, background, no number, no first: " << x;
+  EXPECT_EQ(planar(4, 0), 1.5F);
+  input.fov_deg = 90;  // fx = 4
+  input.depth_kind = DepthKind::ray;
+  EXPECT_NEAR(second(input)(7, 5), 1.5 / std::hypot(1, 3.5 / 4, 2.5 / 4), 1e-6);
+  input.depth_kind = DepthKind::inverse;
+  EXPECT_EQ(second(input)(0, 0), 0.5F) << "1 is farther than 2 now";
+  EXPECT_EQ(second(input)(7, 5), kInf);
+  input.depth_kind = DepthKind::device;
+  expect_has(message([&] { FileSource other(input); }, ErrorCode::usage), {"depth (", "--near and --far"});
+}
+
+TEST_F(FileSourceTest, ASecondDepthMayComeFromAnotherSequence) {
+  Picture nuke, behind;
+  nuke.channels = {{"depth.Z", 0.5F}};  // inverse
+  behind.channels = {{"R", 0.25F}};
+  behind.data = {1, 1, 5, 5};
+  write("a.0001.exr", nuke);
+  write("behind.0001.exr", behind);
+  SourceOptions input = options("a.####.exr", "nuke");
+  input.siblings.push_back({Role::depth2, find_sequence(path("behind.####.exr"), HashDigits::one).sequence});
+  const Frame frame = *FileSource(input).load(1, "", {Role::depth2}, false);
+  EXPECT_EQ(frame.depth()(0, 0), 2);
+  EXPECT_EQ(frame.planes(Role::depth2)[0](5, 5), 4) << "stored as the first is";
+  EXPECT_EQ(frame.planes(Role::depth2)[0](0, 0), kInf) << "outside its window";
+}
+
 TEST_F(FileSourceTest, RayDepthThatNobodyAskedForWaitsForALens) {
   Picture ray;
   ray.channels.back().first = "hitdist";

@@ -97,6 +97,8 @@ TEST(Profiles, ComplaintsNameFileAndKey) {
             std::string::npos);
   EXPECT_NE(complaint(R"({"normal": [{"channels": "N.{X,Y,Z}", "scale": [1]}]})").find("scale: needs 3 numbers"),
             std::string::npos);
+  EXPECT_NE(complaint(R"({"depth2": [{"channels": "Z2", "kind": "ray"}]})").find("kind"), std::string::npos)
+      << "the second depth is stored as the first";
   EXPECT_NE(complaint(R"({"detect": [{}]})").find("detect[0]: needs either"), std::string::npos);
   EXPECT_NE(complaint(R"({"color": ["R"]})").find("color[0]: names 1 channels"), std::string::npos);
   EXPECT_NE(complaint(R"({"unit": "yard"})").find("unit"), std::string::npos);

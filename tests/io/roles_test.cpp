@@ -119,6 +119,25 @@ TEST(Roles, TheZOfAVectorIsNeverDepth) {
   EXPECT_EQ(channels_of(resolve(file({part({"Z", "z"})})), Role::depth), Names{"Z"}) << "identical spelling first";
 }
 
+TEST(Roles, TheSecondDepthHasItsOwnNames) {
+  for (const std::string name : {"depth2.Z", "Z2", "L.Depth2.Z", "depth_second.Z", "depth2"}) {
+    const auto roles = resolve(file({part({"R", "G", "B", "Z", name})}));
+    EXPECT_EQ(channels_of(roles, Role::depth2), Names{name});
+    EXPECT_EQ(channels_of(roles, Role::depth), Names{"Z"});
+  }
+  EXPECT_TRUE(channels_of(resolve(file({part({"Z", "depth2.X", "depth2.Y", "depth2.Z"})})), Role::depth2).empty());
+  EXPECT_EQ(channels_of(resolve(file({part({"Z"})}), "generic", "", {{"depth2", "Z"}}), Role::depth2), Names{"Z"});
+}
+
+TEST(Roles, TheZOfAPartIsTheDepthThatThePartSays) {
+  const FileInfo info = file({part({"Z"}, "depth2.main"), part({"R", "G", "B"}, "rgba"), part({"Z"}, "other")});
+  for (const RoleBinding& binding : resolve(info))
+    EXPECT_EQ(binding.channels.front().part, binding.role == Role::depth2 ? 0 : 2)
+        << aftershade::info(binding.role).name;
+  EXPECT_EQ(resolve(info).size(), 2U);
+  EXPECT_TRUE(channels_of(resolve(file({part({"Z"}, "depth2"), part({"R"}, "rgba")})), Role::depth).empty());
+}
+
 TEST(Roles, Overrides) {
   const FileInfo info =
       file({part({"R", "G", "B", "Z", "foo.Z", "L.Vector.X", "L.Vector.Y", "m.a", "m.b", "GI.R", "GI.G", "GI.B"})});

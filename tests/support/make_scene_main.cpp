@@ -15,17 +15,18 @@ namespace aftershade::tests {
 namespace {
 
 constexpr const char* kUsage =
-    "make_scene SCENE -o DIR [--frames 1-8] [--size 480x270] [--samples 16] [--noise 0]\n"
+    "make_scene SCENE -o DIR [--frames 1-8] [--size 480x270] [--samples 16] [--noise 0] [--depth2]\n"
     "           [--truth ao,blur] [--ao-radius 1] [--ao-rays 256] [--shutter 0.5] [--blur-samples 64]\n"
-    "writes DIR/SCENE.####.exr, and with --truth DIR/SCENE_ao.####.exr (cosine-weighted, hard radius in metres)\n"
-    "and DIR/SCENE_blur.####.exr (centred box shutter, in frames). Scenes:\n";
+    "writes DIR/SCENE.####.exr (with --depth2 also channel depth2.Z: what lies behind the first surface), and with\n"
+    "--truth DIR/SCENE_ao.####.exr (cosine-weighted, hard radius in metres) and DIR/SCENE_blur.####.exr (centred box\n"
+    "shutter, in frames). Scenes:\n";
 
 struct Options {
   std::string scene, folder;
   int first = 1, last = 8;
   RenderSettings settings{480, 270, 16};
   double noise = 0, shutter_frames = 0.5;
-  bool ao = false, blur = false;
+  bool depth2 = false, ao = false, blur = false;
   AoTruth ao_truth{};
   int blur_samples = 64;
 };
@@ -85,7 +86,9 @@ void set_option(Options& options, const std::string& name, const std::string& va
 Options parse(const std::vector<std::string>& arguments) {
   Options options;
   for (size_t i = 0; i < arguments.size(); ++i) {
-    if (arguments[i].starts_with("-")) {
+    if (arguments[i] == "--depth2") {
+      options.depth2 = true;
+    } else if (arguments[i].starts_with("-")) {
       if (i + 1 == arguments.size()) usage_error(cat(arguments[i], " needs a value"));
       set_option(options, arguments[i], arguments[i + 1]);
       ++i;
@@ -106,7 +109,9 @@ std::string frame_path(const Options& options, const std::string& suffix, int fr
 
 void write_frame(const Options& options, const Scene& scene, int number) {
   const RenderSettings& size = options.settings;
-  Frame frame = render(scene, number, size);
+  RoleSet roles = kSceneRoles;
+  if (options.depth2) roles.insert(Role::depth2);
+  Frame frame = render(scene, number, size, roles);
   if (options.noise > 0) add_render_noise(frame, options.noise);
   write_scene_file(frame, frame_path(options, "", number));
   if (options.ao)

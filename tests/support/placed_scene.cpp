@@ -110,6 +110,25 @@ std::optional<double> PlacedScene::trace_distance(const Ray& ray) const {
   return best ? std::optional(best->surface.t) : std::nullopt;
 }
 
+std::optional<double> PlacedScene::trace_behind(Ray ray, const Hit& first) const {
+  constexpr double kContact_m = 1e-6;  // nearer than that, surfaces touch
+  const auto is_solid = [&](size_t object) {
+    const Shape& shape = scene_->objects[object].shape;
+    return std::holds_alternative<Sphere>(shape) || std::holds_alternative<Box>(shape) ||
+           std::holds_alternative<Cylinder>(shape);
+  };
+  ray.t_min = first.t + kContact_m;
+  std::optional<Nearest> exit;
+  if (Ray inside = ray; is_solid(first.object) && test(first.object, inside, exit))
+    ray.t_min = exit->surface.t + kContact_m;
+  while (const auto next = nearest(ray, false)) {
+    const Vec3 outwards = transform_direction(next->surface.normal, placements_[next->object].to_world);
+    if (!is_solid(next->object) || outwards.dot(ray.direction) < 0) return next->surface.t;
+    ray.t_min = next->surface.t + kContact_m;
+  }
+  return std::nullopt;
+}
+
 std::optional<Hit> PlacedScene::trace(const Ray& ray) const {
   const auto best = nearest(ray, false);
   if (!best) return std::nullopt;

@@ -24,6 +24,9 @@ class PlacedScene {
   /// The distance t of the nearest hit alone; nullopt when the ray is free.
   std::optional<double> trace_distance(const Ray& ray) const;
   bool blocked(const Ray& ray) const;  ///< is there any hit?
+  /// The t of the next surface that shows once the ray has left the object of its `first` hit: where it enters another
+  /// solid or meets a thin surface. Solids that overlap count as one; the floor under what stands on it does not show.
+  std::optional<double> trace_behind(Ray ray, const Hit& first) const;
   const Scene& scene() const { return *scene_; }
   double time() const { return time_; }
 

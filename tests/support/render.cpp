@@ -83,6 +83,9 @@ class GeometryPass {
       const Ray ray = rays_(x + 0.5, y + 0.5);
       const auto hit = placed_.trace(ray);
       if (frame_.has(Role::depth)) frame_.planes(Role::depth)[0](x, y) = hit ? static_cast<float>(hit->t) : kInfinity;
+      if (hit && frame_.has(Role::depth2))
+        if (const auto behind = placed_.trace_behind(ray, *hit))
+          frame_.planes(Role::depth2)[0](x, y) = static_cast<float>(*behind);
       if (hit) put(Role::normal, x, y, transform_direction(hit->normal, *frame_.camera->world_to_camera));
       const Vec3 here(x + 0.5, y + 0.5, 0);
       const auto displacement = [&](const OtherTime& other) {
@@ -138,8 +141,9 @@ Frame render(const Scene& scene, double time, const RenderSettings& settings, Ro
   frame.window = frame.display = {0, 0, settings.width - 1, settings.height - 1};
   frame.camera = camera_at(scene, time, settings.width, settings.height);
   for (const RoleInfo& role : kRoles)
-    if (roles.contains(role.role) && kSceneRoles.contains(role.role) && role.role != Role::ambient)
-      frame.planes(role.role) = planes(static_cast<size_t>(role.planes), settings.width, settings.height);
+    if (roles.contains(role.role) && role.role != Role::ambient && role.role != Role::ao)
+      frame.planes(role.role) = planes(static_cast<size_t>(role.planes), settings.width, settings.height,
+                                       role.role == Role::depth2 ? kInfinity : 0);
   GeometryPass geometry(placed, frame);
   for_rows(settings.height, [&](int y) { geometry.row(y); });
   if (!with_layers && !roles.contains(Role::ambient)) return frame;

@@ -12,10 +12,11 @@ struct RenderSettings {
 inline const RoleSet kSceneRoles{Role::depth, Role::normal, Role::velocity_prev, Role::velocity_next, Role::ambient};
 
 /// The scene at `time` as a canonical Frame (DESIGN 2), numbered by the time rounded.
-/// Depth, normals and velocity are those of the surface point at the pixel centre, unfiltered; on the background depth
-/// is +inf, the normal 0, the velocity that of a point infinitely far (camera rotation). A velocity that leads behind
-/// the camera is NaN. The beauty ("", R G B A) and ambient are box filtered over the pixel: Lambert with one sun, whose
-/// shadow is exact, plus ambient light without any occlusion. The background is the sky's radiance with alpha 0.
+/// Depth, depth2 (when asked for; PlacedScene::trace_behind), normals and velocity are those of the surface point at
+/// the pixel centre, unfiltered; on the background depth is +inf, the normal 0, the velocity that of a point infinitely
+/// far (camera rotation). A velocity that leads behind the camera is NaN. The beauty ("", R G B A) and ambient are box
+/// filtered over the pixel: Lambert with one sun, whose shadow is exact, plus ambient light without any occlusion. The
+/// background is the sky's radiance with alpha 0.
 Frame render(const Scene& scene, double time, const RenderSettings& settings, RoleSet roles = kSceneRoles,
              bool with_layers = true);
 

@@ -91,7 +91,10 @@ void write_scene_file(const Frame& frame, const std::string& path) {
   FileBuilder builder(frame);
   const Layer& beauty = frame.layers.at(0);
   for (size_t c = 0; c < beauty.planes.size(); ++c) builder.add(beauty.channels[c], PixelType::half, beauty.planes[c]);
-  builder.add_computed("Z", PixelType::single, [&](int x, int y) { return std::min(frame.depth()(x, y), 1e10F); });
+  for (const auto& [role, name] : {std::pair{Role::depth, "Z"}, {Role::depth2, "depth2.Z"}})
+    if (frame.has(role))
+      builder.add_computed(name, PixelType::single,
+                           [&plane = frame.planes(role)[0]](int x, int y) { return std::min(plane(x, y), 1e10F); });
   add_normals(builder, frame);
   add_velocity(builder, "forward", frame.planes(Role::velocity_next));
   add_velocity(builder, "backward", frame.planes(Role::velocity_prev));

@@ -58,6 +58,24 @@ TEST_F(SceneFile, HoldsTheFrameInTheGenericConventions) {
     EXPECT_EQ(file.info().parts[0].find(name)->type, io::PixelType::single) << name;
 }
 
+TEST_F(SceneFile, HasASecondDepthWhereTheFrameHas) {
+  write_scene_file(frame_, path_);
+  EXPECT_FALSE(io::ExrReader(path_).info().parts[0].find("depth2.Z"));
+  RoleSet roles = kSceneRoles;
+  roles.insert(Role::depth2);
+  const Frame both = render(find_scene("columns"), 3, kSize, roles);
+  write_scene_file(both, path_);
+  const Plane stored = read(io::ExrReader(path_), "depth2.Z");
+  int behind = 0;
+  for (int y = 0; y < kSize.height; ++y)
+    for (int x = 0; x < kSize.width; ++x) {
+      const float second = both.planes(Role::depth2)[0](x, y);
+      EXPECT_EQ(stored(x, y), std::isfinite(second) ? second : 1e10F);
+      behind += std::isfinite(second) ? 1 : 0;
+    }
+  EXPECT_GT(behind, 100);
+}
+
 TEST_F(SceneFile, MatricesFollowOpenExr) {
   write_scene_file(frame_, path_);
   const io::ExrReader file(path_);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/error.h"
 #include "core/parallel/rows.h"
@@ -128,6 +129,55 @@ TEST(Velocity, OfTheBackgroundIsTheCamerasRotation) {
   const Frame panning = render(scene, 0, kSmall, kSceneRoles, false);
   // Turned to the right by atan(0.5 / 5), the middle of the image moves to the left.
   EXPECT_NEAR(panning.planes(Role::velocity_next)[0](120, 3), -0.1 * panning.camera->fx, 1.5);
+}
+
+TEST(SecondDepth, IsWhatShowsBehindTheFirstObject) {
+  Scene scene = ball_ahead({0, 0, 0}, 0);  // 4.5 m to 5.5 m away, and the camera looks along -Z
+  const auto place = [&](Shape shape, const Vec3& origin) {
+    Motion motion;
+    motion.origin = origin;
+    scene.objects.push_back({shape, {}, motion});
+  };
+  const auto depths = [&] {
+    Frame frame = render(scene, 0, {3, 3, 1}, {Role::depth, Role::depth2}, false);
+    return std::pair(double{frame.depth()(1, 1)}, double{frame.planes(Role::depth2).at(0)(1, 1)});
+  };
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(depths(), std::pair(4.5, kInf)) << "its own back does not show";
+  place(Triangle{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}}, {0, 0, -3});
+  EXPECT_EQ(depths().second, 8) << "a thin surface";
+  place(Triangle{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}}, {0, 0, 0.1});
+  EXPECT_EQ(depths().second, 8) << "inside the ball it does not show";
+  place(Box{{1, 1, 0.25}}, {0, 0, -1.75});
+  EXPECT_NEAR(depths().second, 6.5, 1e-6) << "a solid";
+  place(Box{{1, 1, 0.25}}, {0, 0, -0.5});
+  EXPECT_NEAR(depths().second, 6.5, 1e-6) << "one that begins inside the ball is one with it";
+  place(Triangle{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}}, {0, 0, 2});
+  EXPECT_EQ(depths().first, 3) << "a thin surface has no inside";
+  EXPECT_NEAR(depths().second, 4.5, 1e-6);
+}
+
+TEST(SecondDepth, ShowsNoFloorUnderWhatStandsOnIt) {
+  Scene scene = ball_ahead({0, 0, 0}, 0);
+  Motion up;
+  up.origin = {0, 0.5, 0};
+  scene.objects = {{Ground{}, {}, {}}, {Box{{0.5, 0.5, 0.5}}, {}, up}};
+  scene.camera.eye.origin = {0, 4, 1};
+  const Frame frame = render(scene, 0, {3, 3, 1}, {Role::depth, Role::depth2}, false);
+  EXPECT_GT(frame.depth()(1, 1), 2);
+  EXPECT_TRUE(std::isinf(frame.planes(Role::depth2).at(0)(1, 1)));
+}
+
+TEST_P(EveryScene, TheSecondDepthIsBeyondTheFirst) {
+  const Frame frame = render(find_scene(GetParam()), 3, kSmall, {Role::depth, Role::depth2}, false);
+  int behind = 0;
+  for (int y = 0; y < kSmall.height; ++y)
+    for (int x = 0; x < kSmall.width; ++x) {
+      const float first = frame.depth()(x, y), second = frame.planes(Role::depth2)[0](x, y);
+      ASSERT_TRUE(second > first || (std::isinf(first) && std::isinf(second))) << x << ' ' << y;
+      behind += std::isfinite(second) ? 1 : 0;
+    }
+  EXPECT_GT(behind, 100);
 }
 
 TEST(TrailScene, FloorPointsLieWithinTheStableDistance) {
