@@ -25,6 +25,7 @@ class Stage {
 std::unique_ptr<Stage> make_stage(const ao::ScalableAoParams& params);
 std::unique_ptr<Stage> make_stage(const filter::BilateralBlurParams& params);
 std::unique_ptr<Stage> make_stage(const filter::BilateralUpsampleParams& params);
+std::unique_ptr<Stage> make_stage(const filter::CrossBilateralBlurParams& params);
 std::unique_ptr<Stage> make_stage(const temporal::SelectiveTemporalParams& params);
 std::unique_ptr<Stage> make_stage(const ao::ApplyAoParams& params);
 std::unique_ptr<Stage> make_stage(const motionblur::ScalableBlurParams& params);

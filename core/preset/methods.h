@@ -6,6 +6,7 @@
 #include "core/ao/scalable_ao.h"
 #include "core/filter/bilateral_blur.h"
 #include "core/filter/bilateral_upsample.h"
+#include "core/filter/cross_bilateral_blur.h"
 #include "core/motionblur/scalable_blur.h"
 #include "core/temporal/selective_temporal.h"
 
@@ -15,7 +16,8 @@ namespace aftershade::preset {
 /// core/pipeline, which the compiler then asks for); JSON, --set, help, manual, schema and the property tests loop over
 /// it.
 using StageParams = std::variant<ao::ScalableAoParams, filter::BilateralBlurParams, filter::BilateralUpsampleParams,
-                                 temporal::SelectiveTemporalParams, ao::ApplyAoParams, motionblur::ScalableBlurParams>;
+                                 filter::CrossBilateralBlurParams, temporal::SelectiveTemporalParams, ao::ApplyAoParams,
+                                 motionblur::ScalableBlurParams>;
 
 /// Calls `visit(std::type_identity<Params>{})` for every method in the list's order.
 template <class Visit>
