@@ -4,10 +4,13 @@
 
 #include "core/ao/apply_ao.h"
 #include "core/ao/scalable_ao.h"
+#include "core/ao/sphere_kernel.h"
 #include "core/filter/bilateral_blur.h"
 #include "core/filter/bilateral_upsample.h"
 #include "core/filter/cross_bilateral_blur.h"
 #include "core/motionblur/scalable_blur.h"
+#include "core/preset/accumulative_ssao.h"
+#include "core/preset/temporal_refinement.h"
 #include "core/temporal/selective_temporal.h"
 
 namespace aftershade::preset {
@@ -15,9 +18,10 @@ namespace aftershade::preset {
 /// THE list of methods. A method is added by writing its files and putting its parameter struct here (and its stage in
 /// core/pipeline, which the compiler then asks for); JSON, --set, help, manual, schema and the property tests loop over
 /// it.
-using StageParams = std::variant<ao::ScalableAoParams, filter::BilateralBlurParams, filter::BilateralUpsampleParams,
-                                 filter::CrossBilateralBlurParams, temporal::SelectiveTemporalParams, ao::ApplyAoParams,
-                                 motionblur::ScalableBlurParams>;
+using StageParams =
+    std::variant<ao::ScalableAoParams, ao::SphereKernelParams, AccumulativeSsaoParams, TemporalRefinementParams,
+                 filter::BilateralBlurParams, filter::BilateralUpsampleParams, filter::CrossBilateralBlurParams,
+                 temporal::SelectiveTemporalParams, ao::ApplyAoParams, motionblur::ScalableBlurParams>;
 
 /// Calls `visit(std::type_identity<Params>{})` for every method in the list's order.
 template <class Visit>
