@@ -36,6 +36,8 @@ class CameraReprojection {
     return before_.project(transform_point(now_.unproject(x, y, z), delta_));
   }
   const Mat4& delta() const { return delta_; }
+  const Camera& now() const { return now_; }
+  const Camera& before() const { return before_; }
 
  private:
   Camera now_, before_;

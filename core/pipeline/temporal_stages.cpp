@@ -1,3 +1,5 @@
+#include <vector>
+
 #include "core/base/text.h"
 #include "core/pipeline/reprojection_of.h"
 #include "core/pipeline/stage.h"
@@ -6,9 +8,18 @@ namespace aftershade::pipeline {
 
 namespace {
 
+/// What one graphics card keeps; with a single one, frame i-1.
+struct Lane {
+  temporal::TemporalHistory history;
+  std::optional<Camera> camera;
+};
+
 class SelectiveTemporal final : public Stage {
  public:
-  explicit SelectiveTemporal(const temporal::SelectiveTemporalParams& params) : params_(params) {}
+  explicit SelectiveTemporal(const temporal::SelectiveTemporalParams& params)
+      : params_(params), lanes_(static_cast<size_t>(params.afr_lanes)) {
+    if (params_.afr_lanes > 1) params_.reprojection = temporal::ReprojectionSource::camera;
+  }
 
   Needs needs(const Offer& offer) const override {
     Needs needs;
@@ -18,39 +29,44 @@ class SelectiveTemporal final : public Stage {
     return needs;
   }
 
-  void restart() override {
-    history_ = {};
-    camera_before_.reset();
-  }
+  void restart() override { lanes_ = std::vector<Lane>(lanes_.size()); }
 
   void run(Work& work) override {
+    if (params_.afr_lanes > 1)
+      work.note(cat("histories of ", params_.afr_lanes,
+                    " alternating frames: vectors reach back one frame only, so reprojection is by the camera"));
+    Lane& lane = lane_of(work.frame.number);
     const filter::Surface& surface = work.surface();
-    const Plane mask = stable_mask(work, surface);
-    const temporal::Reprojected before =
-        reprojection_of(work, camera_before_, params_.reprojection, params_.agreement_px);
-    if (temporal::share_without_history(surface.depth, before, history_.depth, history_.window) > kCut) {
+    const Plane mask = stable_texels(*work.grid, surface);
+    const ReprojectionSources sources = reprojection_sources(work, lane.camera);
+    const temporal::Reprojection before(sources.input, params_.reprojection, params_.agreement_px);
+    if (temporal::share_without_history(surface.depth, work.frame.window, before, lane.history.depth,
+                                        lane.history.window) > kCut) {
       work.note(cat("frame ", work.frame.number, " looks like a cut: the AO's history starts anew"));
-      history_ = {};
+      lane.history = {};
     }
-    work.ao =
-        temporal::selective_temporal_filter(params_, work.ao, surface.depth, mask, before, work.frame.window, history_);
-    camera_before_ = work.frame.camera;
+    work.ao = temporal::selective_temporal_filter(params_, work.ao, surface.depth, {mask, *work.grid}, before,
+                                                  work.frame.window, lane.history);
+    lane.camera = work.frame.camera;
     if (!work.options.diagnostics) return;
-    work.frame.added["aftershade.mask"] = copy_of(mask);
-    work.frame.added["aftershade.count"] = copy_of(history_.count);
+    work.frame.added["aftershade.mask"] = filter::values_at_pixels(mask, *work.grid, surface);
+    work.frame.added["aftershade.count"] = copy_of(lane.history.count);
   }
 
  private:
-  Plane stable_mask(Work& work, const filter::Surface& surface) const {
-    if (!params_.selective) return Plane(surface.depth.width, surface.depth.height, 0.0F);
-    const Plane continuous = temporal::continuity_mask(params_, *work.grid, surface);
-    return filter::values_at_pixels(temporal::dilate_discontinuities(continuous, params_.dilation_texels), *work.grid,
-                                    surface);
+  Lane& lane_of(int frame) {
+    const int count = params_.afr_lanes;
+    return lanes_[static_cast<size_t>((frame % count + count) % count)];
+  }
+
+  /// On the AO's grid, at whatever resolution AO is by now ("Two Half-Res Passes").
+  Plane stable_texels(const filter::SampleGrid& grid, const filter::Surface& surface) const {
+    if (!params_.selective) return Plane(grid.width(), grid.height(), 0.0F);
+    return temporal::dilate_discontinuities(temporal::continuity_mask(params_, grid, surface), params_.dilation_texels);
   }
 
   temporal::SelectiveTemporalParams params_;
-  temporal::TemporalHistory history_;
-  std::optional<Camera> camera_before_;
+  std::vector<Lane> lanes_;
 };
 
 }  // namespace

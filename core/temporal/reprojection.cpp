@@ -3,57 +3,82 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 #include "core/parallel/rows.h"
+#include "core/temporal/reprojection_kernel.h"
 
 namespace aftershade::temporal {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr Vec3 kUnknown{kNaN, kNaN, kNaN};
+bool is_surface(float depth) { return std::isfinite(depth) && depth > 0; }
 
-bool is_surface(double depth) { return std::isfinite(depth) && depth > 0; }
+/// As StaticMotion, in double.
+struct Polynomial {
+  double a = 0, b = 0, c = 0;
+  Polynomial operator+(const Polynomial& o) const { return {a + o.a, b + o.b, c + o.c}; }
+  Polynomial operator*(double k) const { return {a * k, b * k, c * k}; }
+  RowPolynomial in_float() const { return {static_cast<float>(a), static_cast<float>(b), static_cast<float>(c)}; }
+};
 
-/// Position and expected depth of a static surface (algorithms 7.1); unknown behind the camera before.
-Vec3 static_surface(const ReprojectionInput& input, double x, double y, double z) {
-  if (!input.camera) return kUnknown;
-  const Vec3 before = (*input.camera)(x, y, z);
-  return before.z > 0 ? before : kUnknown;
+/// Coordinate k of the point in camera i-1, over z in perspective, along the row at `y` below the axis. A point of
+/// camera i is z (x / fx, -y / fy, 1), or (x / fx, -y / fy, z).
+Polynomial coordinate(const CameraReprojection& cameras, int k, double y) {
+  const Camera& now = cameras.now();
+  const Mat4& delta = cameras.delta();
+  const double ahead = delta[2][k], fixed = delta[3][k];
+  return {(now.orthographic ? fixed : ahead) - y * delta[1][k] / now.fy, delta[0][k] / now.fx,
+          now.orthographic ? ahead : fixed};
 }
 
-/// The vector decides where it is known and the camera's motion does not explain it (algorithms 7.2).
-Vec3 where_it_was(const ReprojectionInput& input, double x, double y, double z, double mv_x, double mv_y,
-                  double agreement_px) {
-  const Vec3 before = static_surface(input, x, y, z);
-  if (!std::isfinite(mv_x) || !std::isfinite(mv_y)) return input.holes_are_invalid ? kUnknown : before;
-  if (!input.camera) return {x + mv_x, y + mv_y, z};
-  const double off_x = before.x - x - mv_x, off_y = before.y - y - mv_y;
-  if (off_x * off_x + off_y * off_y <= agreement_px * agreement_px) return before;
-  return {x + mv_x, y + mv_y, before.z};
+StaticMotion static_motion(const CameraReprojection& cameras, double row_y) {
+  const Camera &now = cameras.now(), &before = cameras.before();
+  const double y = row_y - now.cy;
+  const Polynomial ahead = coordinate(cameras, 2, y);
+  // Perspective divides by the depth before; an orthographic camera by what coordinate() left out.
+  const Polynomial scale = !before.orthographic ? ahead : now.orthographic ? Polynomial{1} : Polynomial{0, 0, 1};
+  const Polynomial x = coordinate(cameras, 0, y) * before.fx + scale * (before.cx - now.cx);
+  const Polynomial move_y = coordinate(cameras, 1, y) * -before.fy + scale * (before.cy - now.cy - y);
+  const Polynomial move_x{x.a, x.b - scale.a, x.c};  // minus the pixel's own x times the scale
+  return {
+      move_x.in_float(),           move_y.in_float(), scale.in_float(), ahead.in_float(), static_cast<float>(-scale.b),
+      static_cast<float>(-scale.c)};
 }
 
 }  // namespace
 
+Reprojection::Reprojection(const ReprojectionInput& input, ReprojectionSource source, float agreement_px)
+    : input_(input),
+      vectors_(source == ReprojectionSource::automatic && !input.mv_prev_x.empty() && !input.mv_prev_y.empty()),
+      agreement_px_(agreement_px) {}
+
+void Reprojection::row(int y, const float* not_needed, float* x, float* y_before, float* depth) const {
+  const double centre_y = input_.window.min_y + y + 0.5;
+  ReprojectionRow row{};
+  row.depth = input_.depth.row(y);
+  if (vectors_) row.mv_x = input_.mv_prev_x.row(y), row.mv_y = input_.mv_prev_y.row(y);
+  row.not_needed = not_needed;
+  row.camera = input_.camera.has_value();
+  if (row.camera) {
+    row.motion = static_motion(*input_.camera, centre_y);
+    row.orthographic = input_.camera->now().orthographic;
+    row.centre_x = static_cast<float>(input_.camera->now().cx);
+  }
+  row.holes_are_invalid = input_.holes_are_invalid;
+  row.agreement_px = agreement_px_;
+  row.width = input_.depth.width;
+  row.min_x = input_.window.min_x;
+  row.centre_y = static_cast<float>(centre_y);
+  row.out_x = x, row.out_y = y_before, row.out_z = depth;
+  reprojection_row(row);
+}
+
 Reprojected reproject(const ReprojectionInput& input, ReprojectionSource source, float agreement_px) {
   const int width = input.depth.width, height = input.depth.height;
-  const bool vectors = source == ReprojectionSource::automatic && !input.mv_prev_x.empty() && !input.mv_prev_y.empty();
+  const Reprojection reprojection(input, source, agreement_px);
   Reprojected out{Plane(width, height), Plane(width, height), Plane(width, height)};
-  for_rows(height, [&](int j) {
-    const double y = input.window.min_y + j + 0.5;
-    for (int i = 0; i < width; ++i) {
-      const double x = input.window.min_x + i + 0.5, z = input.depth(i, j);
-      const double mv_x = vectors ? input.mv_prev_x(i, j) : 0, mv_y = vectors ? input.mv_prev_y(i, j) : 0;
-      const Vec3 before = !is_surface(z) ? kUnknown
-                          : vectors      ? where_it_was(input, x, y, z, mv_x, mv_y, agreement_px)
-                                         : static_surface(input, x, y, z);
-      out.x(i, j) = static_cast<float>(before.x);
-      out.y(i, j) = static_cast<float>(before.y);
-      out.depth(i, j) = static_cast<float>(before.z);
-    }
-  });
+  for_rows(height, [&](int y) { reprojection.row(y, nullptr, out.x.row(y), out.y.row(y), out.depth.row(y)); });
   return out;
 }
 
@@ -81,27 +106,65 @@ VelocityPlanes scatter_velocity(ConstPlaneView mv_next_x, ConstPlaneView mv_next
   return out;
 }
 
+namespace {
+
+/// Surface pixels of a row, and those of them without a past.
+struct Share {
+  int64_t surface = 0, lost = 0;
+};
+
+Share row_without_history(const float* depth, int width, const float* x, const float* y, const float* expected,
+                          ConstPlaneView stored_depth, const Window& w) {
+  constexpr float kOtherDepth = 0.1F;
+  Share share;
+  for (int i = 0; i < width; ++i) {
+    if (!is_surface(depth[i])) continue;
+    ++share.surface;
+    const float px = std::floor(x[i]), py = std::floor(y[i]);
+    const bool inside = px >= static_cast<float>(w.min_x) && px <= static_cast<float>(w.max_x) &&
+                        py >= static_cast<float>(w.min_y) && py <= static_cast<float>(w.max_y);
+    const float stored = inside ? stored_depth(static_cast<int>(px) - w.min_x, static_cast<int>(py) - w.min_y) : 0;
+    const bool same = stored > 0 && std::abs(1 - expected[i] / stored) < kOtherDepth;
+    share.lost += same ? 0 : 1;
+  }
+  return share;
+}
+
+double total_share(const std::vector<Share>& rows) {
+  Share total;
+  for (const Share& row : rows) total.surface += row.surface, total.lost += row.lost;
+  return total.surface > 0 ? static_cast<double>(total.lost) / static_cast<double>(total.surface) : 0;
+}
+
+}  // namespace
+
 double share_without_history(ConstPlaneView depth, const Reprojected& reprojected, ConstPlaneView stored_depth,
                              Window stored_window) {
-  constexpr float kOtherDepth = 0.1F;
   if (stored_depth.empty()) return 0;
-  std::vector<int64_t> surface(static_cast<size_t>(depth.height)), lost(surface.size());
+  std::vector<Share> shares(static_cast<size_t>(depth.height));
   for_rows(depth.height, [&](int y) {
-    for (int x = 0; x < depth.width; ++x) {
-      if (!(std::isfinite(depth(x, y)) && depth(x, y) > 0)) continue;
-      ++surface[static_cast<size_t>(y)];
-      const float px = std::floor(reprojected.x(x, y)), py = std::floor(reprojected.y(x, y));
-      const Window& w = stored_window;
-      const bool inside = px >= static_cast<float>(w.min_x) && px <= static_cast<float>(w.max_x) &&
-                          py >= static_cast<float>(w.min_y) && py <= static_cast<float>(w.max_y);
-      const float stored = inside ? stored_depth(static_cast<int>(px) - w.min_x, static_cast<int>(py) - w.min_y) : 0;
-      const bool same = stored > 0 && std::abs(1 - reprojected.depth(x, y) / stored) < kOtherDepth;
-      lost[static_cast<size_t>(y)] += same ? 0 : 1;
-    }
+    shares[static_cast<size_t>(y)] =
+        row_without_history(depth.row(y), depth.width, reprojected.x.row(y), reprojected.y.row(y),
+                            reprojected.depth.row(y), stored_depth, stored_window);
   });
-  const auto total = std::accumulate(surface.begin(), surface.end(), int64_t{0});
-  const auto without = std::accumulate(lost.begin(), lost.end(), int64_t{0});
-  return total > 0 ? static_cast<double>(without) / static_cast<double>(total) : 0;
+  return total_share(shares);
+}
+
+double share_without_history(ConstPlaneView depth, Window window, const Reprojection& reprojection,
+                             ConstPlaneView stored_depth, Window stored_window) {
+  constexpr int kLowWindow = 64, kEvery = 8;
+  if (stored_depth.empty()) return 0;
+  const int every = depth.height < kLowWindow ? 1 : kEvery, first = (window.min_y % every + every) % every;
+  std::vector<Share> shares(static_cast<size_t>(depth.height));
+  for_rows((depth.height + every - 1) / every, [&](int index) {
+    const int y = (every - first) % every + index * every;
+    if (y >= depth.height) return;
+    Plane past(depth.width, 3);
+    reprojection.row(y, nullptr, past.row(0), past.row(1), past.row(2));
+    shares[static_cast<size_t>(y)] = row_without_history(depth.row(y), depth.width, past.row(0), past.row(1),
+                                                         past.row(2), stored_depth, stored_window);
+  });
+  return total_share(shares);
 }
 
 }  // namespace aftershade::temporal

@@ -25,6 +25,20 @@ struct ReprojectionInput {
   bool holes_are_invalid = false;
 };
 
+/// The past of a frame, one row at a time, for filters that need no planes of it.
+class Reprojection {
+ public:
+  Reprojection(const ReprojectionInput& input, ReprojectionSource source, float agreement_px);
+  /// Row y of what reproject() gives, into rows with Plane's padding. Pixels where `not_needed` is 1 may be left as
+  /// they are; it may be null.
+  void row(int y, const float* not_needed, float* x, float* y_before, float* depth) const;
+
+ private:
+  ReprojectionInput input_;
+  bool vectors_;
+  float agreement_px_;
+};
+
 /// Camera where its motion agrees with the pixel's vector within `agreement_px` (static surfaces: exact depth), the
 /// vector elsewhere (with the camera's expected depth, or the pixel's own depth without a camera). Background: NaN.
 /// `source` camera ignores the vectors: seed 000 literally.
@@ -45,5 +59,8 @@ VelocityPlanes scatter_velocity(ConstPlaneView mv_next_x, ConstPlaneView mv_next
 /// (algorithms 13). 0 when there is nothing to compare.
 double share_without_history(ConstPlaneView depth, const Reprojected& reprojected, ConstPlaneView stored_depth,
                              Window stored_window);
+/// The same on one row of eight (by absolute coordinate; on all rows of a low window), which is share enough.
+double share_without_history(ConstPlaneView depth, Window window, const Reprojection& reprojection,
+                             ConstPlaneView stored_depth, Window stored_window);
 
 }  // namespace aftershade::temporal

@@ -13,7 +13,7 @@ namespace aftershade::temporal {
 namespace {
 
 /// Seed 000, "History Buffers": (AO, Z) = (1, 0), N = 0.
-TemporalHistory cleared_history() { return {{0, 0, 0, 0}, Plane(1, 1, 1.0F), Plane(1, 1), Plane(1, 1)}; }
+TemporalHistory cleared_history() { return {{0, 0, 0, 0}, Plane(1, 1, 1.0F), Plane(1, 1), Plane(1, 1), {}, {}, {}}; }
 
 void require_same_size(ConstPlaneView plane, const Window& window, const char* name) {
   if (plane.width == window.width() && plane.height == window.height()) return;
@@ -46,6 +46,12 @@ const params::Table& SelectiveTemporalParams::table() {
                "camera alone, as the talk has it.")
           .add("agreement_px", &S::agreement_px, {0, 1000},
                "Largest difference between vector and camera motion at which a pixel counts as static.")
+          .add("afr_lanes", &S::afr_lanes, {1, 8},
+               "Histories that frames take in turn, as graphics cards in alternate-frame rendering do; above 1, "
+               "reprojection over several frames is by the camera alone.")
+          .add("literal", &S::literal,
+               "Do as the talk's listing is printed: store the depth in the view before, test the nearest pixel only, "
+               "interpolate AO across depth edges.")
           .build();
   return table;
 }
@@ -70,24 +76,83 @@ Plane dilate_discontinuities(ConstPlaneView mask, int n) {
   return out;
 }
 
-Plane selective_temporal_filter(const SelectiveTemporalParams& params, ConstPlaneView ao, ConstPlaneView depth,
-                                ConstPlaneView stable_mask, const Reprojected& reprojected, Window window,
-                                TemporalHistory& history) {
-  require_same_size(ao, window, "ao");
-  require_same_size(depth, window, "depth");
-  require_same_size(reprojected.x, window, "reprojection");
-  if (params.selective) require_same_size(stable_mask, window, "stability mask");
+namespace {
+
+/// Leaves the planes of frame i in place of those of frame i-1, whose memory is kept for frame i+1.
+void keep(TemporalHistory& now, TemporalHistory& history) {
+  now.spare_ao = std::move(history.ao);
+  now.spare_depth = std::move(history.depth);
+  now.spare_count = std::move(history.count);
+  history = std::move(now);
+}
+
+Plane reused(Plane& spare, const Window& window) {
+  const bool fits = spare.width() == window.width() && spare.height() == window.height();
+  return fits ? std::move(spare) : Plane(window.width(), window.height());
+}
+
+/// A row of the mask at every pixel.
+void spread(const StabilityMask& mask, int y, int width, float* row) {
+  const float* texels = mask.texels.row((y - mask.origin_y) / mask.step);
+  const int shift = mask.step == 2 ? 1 : 0;
+  for (int x = 0; x < width; ++x) row[x] = texels[(x - mask.origin_x) >> shift];
+}
+
+/// Where the pixels of row y were: `past(y, stable, x, y, depth)` leaves them in the three rows.
+template <class Past>
+Plane filtered(const SelectiveTemporalParams& params, ConstPlaneView ao, ConstPlaneView depth,
+               const StabilityMask& stable_mask, Past&& past, Window window, TemporalHistory& history) {
   if (history.ao.empty()) history = cleared_history();
   const int width = window.width(), height = window.height();
-  TemporalHistory now{window, Plane(width, height), Plane(width, height), Plane(width, height)};
+  TemporalHistory now;
+  now.window = window;
+  now.ao = reused(history.spare_ao, window);
+  now.depth = reused(history.spare_depth, window);
+  now.count = reused(history.spare_count, window);
+  Plane out(width, height);
   const HistoryView before{history.ao, history.depth, history.count, history.window.min_x, history.window.min_y};
   for_rows(height, [&](int y) {
-    temporal_row({ao.row(y), depth.row(y), params.selective ? stable_mask.row(y) : nullptr, reprojected.x.row(y),
-                  reprojected.y.row(y), reprojected.depth.row(y), before, width, params.epsilon,
-                  static_cast<float>(params.max_frames), now.ao.row(y), now.depth.row(y), now.count.row(y)});
+    Plane row(width, 4);
+    if (params.selective) spread(stable_mask, y, width, row.row(3));
+    past(y, params.literal ? nullptr : row.row(3), row.row(0), row.row(1), row.row(2));
+    temporal_row({ao.row(y), depth.row(y), params.selective ? row.row(3) : nullptr, row.row(0), row.row(1), row.row(2),
+                  before, width, params.epsilon, static_cast<float>(params.max_frames), params.literal, out.row(y),
+                  now.ao.row(y), now.depth.row(y), now.count.row(y)});
   });
-  history = std::move(now);
-  return copy_of(history.ao);
+  keep(now, history);
+  return out;
+}
+
+void check(const SelectiveTemporalParams& params, ConstPlaneView ao, ConstPlaneView depth, const StabilityMask& mask,
+           const Window& window) {
+  require_same_size(ao, window, "ao");
+  require_same_size(depth, window, "depth");
+  if (params.selective && mask.step == 1) require_same_size(mask.texels, window, "stability mask");
+}
+
+}  // namespace
+
+Plane selective_temporal_filter(const SelectiveTemporalParams& params, ConstPlaneView ao, ConstPlaneView depth,
+                                const StabilityMask& stable_mask, const Reprojection& reprojection, Window window,
+                                TemporalHistory& history) {
+  check(params, ao, depth, stable_mask, window);
+  const auto past = [&](int y, const float* stable, float* x, float* y_before, float* z) {
+    reprojection.row(y, stable, x, y_before, z);
+  };
+  return filtered(params, ao, depth, stable_mask, past, window, history);
+}
+
+Plane selective_temporal_filter(const SelectiveTemporalParams& params, ConstPlaneView ao, ConstPlaneView depth,
+                                const StabilityMask& stable_mask, const Reprojected& reprojected, Window window,
+                                TemporalHistory& history) {
+  check(params, ao, depth, stable_mask, window);
+  require_same_size(reprojected.x, window, "reprojection");
+  const auto past = [&](int y, const float*, float* x, float* y_before, float* z) {
+    std::copy_n(reprojected.x.row(y), window.width(), x);
+    std::copy_n(reprojected.y.row(y), window.width(), y_before);
+    std::copy_n(reprojected.depth.row(y), window.width(), z);
+  };
+  return filtered(params, ao, depth, stable_mask, past, window, history);
 }
 
 }  // namespace aftershade::temporal

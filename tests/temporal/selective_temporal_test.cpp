@@ -167,7 +167,7 @@ TEST(SelectiveTemporal, DisocclusionResetsTheCountUnlessEpsilonIsInfinite) {
                                                  {4.51F, 0.1F, 3.0F},
                                                  {4.49F, 0.1F, 1.0F},
                                                  {500.0F, 1e9F, 3.0F}}) {
-    TemporalHistory history{window, Plane(1, 1, 0.2F), Plane(1, 1, 5.0F), Plane(1, 1, 2.0F)};
+    TemporalHistory history{window, Plane(1, 1, 0.2F), Plane(1, 1, 5.0F), Plane(1, 1, 2.0F), {}, {}, {}};
     SelectiveTemporalParams params;
     params.epsilon = epsilon;
     const Reprojected before{Plane(1, 1, 0.5F), Plane(1, 1, 0.5F), Plane(1, 1, expected)};
@@ -183,8 +183,13 @@ TEST(SelectiveTemporal, FewerThanAQuarterOfTheWeightIsNoHistory) {
   // Two columns of history, the right one on another surface: the valid weight is 1 - f.
   const Window window = window_of(2, 1);
   for (const auto& [x, known] : {std::pair(1.25F, true), {1.2501F, false}}) {
-    TemporalHistory history{window, plane_of(2, 1, [](int i, int) { return i == 0 ? 0.2F : 0.9F; }),
-                            plane_of(2, 1, [](int i, int) { return i == 0 ? 5.0F : 9.0F; }), Plane(2, 1, 2.0F)};
+    TemporalHistory history{window,
+                            plane_of(2, 1, [](int i, int) { return i == 0 ? 0.2F : 0.9F; }),
+                            plane_of(2, 1, [](int i, int) { return i == 0 ? 5.0F : 9.0F; }),
+                            Plane(2, 1, 2.0F),
+                            {},
+                            {},
+                            {}};
     const Reprojected before{Plane(2, 1, x), Plane(2, 1, 0.5F), Plane(2, 1, 5.0F)};
     const Plane out =
         selective_temporal_filter({}, Plane(2, 1, 0.8F), Plane(2, 1, 5.0F), Plane(2, 1), before, window, history);
@@ -258,7 +263,8 @@ TEST(SelectiveTemporal, TheHistoryWindowsPlaceDoesNotChangeAFetch) {
     copy_at(plane, out, old.min_x - cut.min_x, old.min_y - cut.min_y);
     return out;
   };
-  TemporalHistory crop{cut, cropped(part.history.ao), cropped(part.history.depth), cropped(part.history.count)};
+  TemporalHistory crop{cut, cropped(part.history.ao), cropped(part.history.depth), cropped(part.history.count), {}, {},
+                       {}};
   const Plane want =
       selective_temporal_filter({}, whole.ao, whole.depth, whole.mask, whole.before, window, whole.history);
   const Plane got = selective_temporal_filter({}, part.ao, part.depth, part.mask, part.before, window, crop);
@@ -281,7 +287,7 @@ TEST(SelectiveTemporal, PlanesOfAnotherSizeAreRefused) {
   EXPECT_THROW(selective_temporal_filter({}, Plane(4, 3), good, good, standing_still(good, window), window, history),
                Error);
   EXPECT_THROW(
-      selective_temporal_filter({}, good, good, ConstPlaneView{}, standing_still(good, window), window, history),
+      selective_temporal_filter({}, good, good, ConstPlaneView(), standing_still(good, window), window, history),
       Error);
   SelectiveTemporalParams all;
   all.selective = false;
@@ -294,11 +300,12 @@ TEST(SelectiveTemporalParams, TableCoversEveryMember) {
   params::read(
       SelectiveTemporalParams::table(), &params,
       params::Json::parse(R"({"epsilon": 1e9, "distance_m": 0.5, "distance_footprints": 0, "dilation_texels": 5,
-                 "max_frames": 16, "selective": false, "reprojection": "camera", "agreement_px": 0.25})"),
+                 "max_frames": 16, "selective": false, "reprojection": "camera", "agreement_px": 0.25, "afr_lanes": 2,
+                 "literal": true})"),
       "test");
-  const SelectiveTemporalParams want{1e9F, 0.5F, 0, 5, 16, false, temporal::ReprojectionSource::camera, 0.25F};
+  const SelectiveTemporalParams want{1e9F, 0.5F, 0, 5, 16, false, temporal::ReprojectionSource::camera, 0.25F, 2, true};
   EXPECT_EQ(params, want);
-  EXPECT_EQ(SelectiveTemporalParams::table().size(), 8U);
+  EXPECT_EQ(SelectiveTemporalParams::table().size(), 10U);
 }
 
 }  // namespace
