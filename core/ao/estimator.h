@@ -3,7 +3,8 @@
 /// What every AO method lets its user choose.
 namespace aftershade::ao {
 
-enum class Resolution { full, half };  ///< every pixel, or one of every 2x2 block
+/// Every pixel, one of every 2x2 block, or so and again every pixel that those blocks do not represent.
+enum class Resolution { full, half, dual };
 enum class NormalSource {
   automatic,
   file,

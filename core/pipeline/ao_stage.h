@@ -4,7 +4,7 @@
 namespace aftershade::pipeline {
 
 /// A stage that makes AO of one frame, with no history. `Params` has `resolution` and `normals`; `Estimate` is
-/// Plane(const Params&, Work&) and returns the AO on work.grid.
+/// Plane(const Params&, Work&) and returns the AO on work.grid; at every pixel for Resolution::dual.
 template <class Params, Plane (*Estimate)(const Params&, Work&)>
 class AoStage final : public Stage {
  public:
@@ -15,7 +15,7 @@ class AoStage final : public Stage {
     needs.required = {Role::depth};
     (params_.normals == ao::NormalSource::file ? needs.required : needs.optional).insert(Role::normal);
     needs.lens = needs.makes_ao = true;
-    needs.makes_ao_at_pixels = params_.resolution == ao::Resolution::full;
+    needs.makes_ao_at_pixels = params_.resolution != ao::Resolution::half;
     return needs;
   }
 
@@ -25,9 +25,10 @@ class AoStage final : public Stage {
     const bool full = params_.resolution == ao::Resolution::full;
     work.grid = full ? filter::full_grid(surface) : filter::half_grid(surface);
     work.ao = Estimate(params_, work);
-    work.ao_at_pixels = full;
+    work.ao_at_pixels = params_.resolution != ao::Resolution::half;
     if (work.options.diagnostics)
-      work.frame.added["aftershade.ao_raw"] = filter::values_at_pixels(work.ao, *work.grid, surface);
+      work.frame.added["aftershade.ao_raw"] =
+          work.ao_at_pixels ? copy_of(work.ao) : filter::values_at_pixels(work.ao, *work.grid, surface);
   }
 
  private:

@@ -43,6 +43,30 @@ TEST(SimdMath, Exp2OfWholeNumbersIsExactAndVanishesBelowItsDomain) {
   EXPECT_EQ(lane0(lanes::exp2(-HUGE_VALF)), 0.0F);
 }
 
+double log2_error(float x) {
+  const double exact = std::log2(static_cast<double>(x)),
+               error = std::abs(static_cast<double>(lane0(lanes::log2(x))) - exact);
+  return x >= 0.5F && x <= 2.0F ? error : error / std::abs(exact);
+}
+
+TEST(SimdMath, Log2StaysWithinItsStatedErrorOverItsWholeDomain) {
+  double worst = 0;
+  for (float x = 0.5F; x <= 2.0F; x = std::nextafter(x, 3.0F)) worst = std::max(worst, log2_error(x));
+  for (uint32_t i = 0; i < 4'000'000; ++i) {  // every magnitude
+    const int exponent = static_cast<int>(hash_counters(i, 1) % 252U) - 126;
+    worst = std::max(worst, log2_error(std::ldexp(1.0F + unit_float(hash_counters(i, 0)), exponent)));
+  }
+  std::printf("log2: worst error %.3g\n", worst);
+  EXPECT_LT(worst, 2e-7);
+  EXPECT_GT(worst, 0.0);
+}
+
+TEST(SimdMath, Log2OfPowersOfTwoIsExactAndEndsAtTheLowestExponent) {
+  for (int n = -126; n <= 126; ++n) EXPECT_EQ(lane0(lanes::log2(std::ldexp(1.0F, n))), static_cast<float>(n)) << n;
+  EXPECT_EQ(lane0(lanes::log2(0.0F)), -126.0F);
+  EXPECT_EQ(lane0(lanes::log2(-1.0F)), -126.0F);
+}
+
 double sincos_error(float t) {
   const lanes::SinCos value = lanes::sincos_turns(t);
   const double turns = static_cast<double>(t) - std::round(static_cast<double>(t));  // exact
