@@ -26,9 +26,21 @@ const params::Table& ScalableAoParams::table() {
               "Largest projected radius at the reference height, beyond which the radius is shortened; 0 for no limit.")
           .add("reference_height_px", &P::reference_height_px, {1, 65536},
                "Image height at which max_radius_px is meant; at other heights it scales with the height.")
+          .add("radius_clamp", &P::radius_clamp, {"radius", "taps"},
+               "What max_radius_px shortens: the radius with its falloff, or only how far taps reach, which keeps more "
+               "occlusion but outlines near objects.")
+          .add("falloff", &P::falloff, {"linear", "quadratic", "cubic", "none"},
+               "How occlusion falls with the distance d in radii: 1 - d (the talk's), 1 - d^2, (1 - d^2)^3, or not "
+               "until "
+               "the radius.")
           .add("bias", &P::bias, {0, 1},
                "Sine of the angle above the surface below which nothing occludes, against self-occlusion.")
+          .add("bias_m", &P::bias_m, {0, 1e6},
+               "Height above the surface below which nothing occludes: the bias as the talk's text has it.")
           .add("scale", &P::scale, {0, 100}, "Strength of the occlusion before it is squared.")
+          .add("squared", &P::squared, "Square the occlusion, as the talk does: contact shadows are emphasised.")
+          .add("passes", &P::passes, {1, 1024},
+               "Runs with different rotations of the taps, averaged: less noise, as bright.")
           .add("depth_mips", &P::depth_mips, "Let taps far from their pixel read reduced depth, which is faster.")
           .add("normals", &P::normals, {"auto", "file", "depth"},
                "Where normals come from: the file if it has them and else the depth, the file only, or the depth only.")
@@ -48,10 +60,10 @@ std::array<float, 16> rotations(TapPattern pattern) {
   return turns;
 }
 
-/// Successive multiples of the golden ratio fill the circle evenly, whatever the number of frames.
-float noise_turns(const ScalableAoParams& params, int frame_number) {
-  if (!params.per_frame_noise) return 0;
-  const double turns = frame_number * 0.6180339887498949;
+/// Successive multiples of the golden ratio fill the circle evenly, whatever the number of passes and frames.
+float noise_turns(const ScalableAoParams& params, int frame_number, int pass) {
+  const double seed = (params.per_frame_noise ? static_cast<double>(frame_number) * params.passes : 0.0) + pass;
+  const double turns = seed * 0.6180339887498949;
   return static_cast<float>(turns - std::floor(turns));
 }
 
@@ -61,22 +73,45 @@ DepthLevels depth_levels(const filter::DepthPyramid& pyramid, bool mips) {
   return {{level(0), level(1), level(2), level(3), level(4), level(5)}, count, pyramid.origin_x(), pyramid.origin_y()};
 }
 
-}  // namespace
-
-Plane scalable_ao(const ScalableAoParams& params, const filter::Surface& surface, const filter::DepthPyramid& pyramid,
-                  const filter::SampleGrid& grid, int frame_number) {
+Plane one_pass(const ScalableAoParams& params, const filter::Surface& surface, const filter::DepthPyramid& pyramid,
+               const filter::SampleGrid& grid, float turns) {
   const auto taps = params.pattern == TapPattern::mirrored ? mirrored_taps(params.taps) : spiral_taps(params.taps);
   const float clamp_px = filter::scaled_px(params.max_radius_px, params.reference_height_px, surface.display_height);
   Plane out(grid.width(), grid.height(), 1.0F);
   for_rows(out.height(), [&](int y) {
-    scalable_ao_row(
-        {filter::GridSamples(grid), filter::NormalSamples(surface), filter::Lens(surface.projection),
-         depth_levels(pyramid, params.depth_mips), taps, params.radius_m, params.radius_m * surface.projection.fx,
-         params.radius_m * surface.projection.fy,
-         params.max_radius_px > 0 ? clamp_px : std::numeric_limits<float>::infinity(), params.bias, params.scale,
-         noise_turns(params, frame_number), rotations(params.pattern), (surface.origin_x + grid.origin_x) / grid.step,
-         (surface.origin_y + grid.origin_y) / grid.step, out.row(y)},
-        y);
+    scalable_ao_row({.grid = filter::GridSamples(grid),
+                     .normals = filter::NormalSamples(surface),
+                     .lens = filter::Lens(surface.projection),
+                     .depth = depth_levels(pyramid, params.depth_mips),
+                     .taps = taps,
+                     .params = params,
+                     .radius_px_x = params.radius_m * surface.projection.fx,
+                     .radius_px_y = params.radius_m * surface.projection.fy,
+                     .max_radius_px = params.max_radius_px > 0 ? clamp_px : std::numeric_limits<float>::infinity(),
+                     .noise_turns = turns,
+                     .rotation_turns = rotations(params.pattern),
+                     .texel_x = (surface.origin_x + grid.origin_x) / grid.step,
+                     .texel_y = (surface.origin_y + grid.origin_y) / grid.step,
+                     .out = out.row(y)},
+                    y);
+  });
+  return out;
+}
+
+}  // namespace
+
+Plane scalable_ao(const ScalableAoParams& params, const filter::Surface& surface, const filter::DepthPyramid& pyramid,
+                  const filter::SampleGrid& grid, int frame_number) {
+  Plane out = one_pass(params, surface, pyramid, grid, noise_turns(params, frame_number, 0));
+  for (int pass = 1; pass < params.passes; ++pass) {
+    const Plane next = one_pass(params, surface, pyramid, grid, noise_turns(params, frame_number, pass));
+    for_rows(out.height(), [&](int y) {
+      for (int x = 0; x < out.width(); ++x) out(x, y) += next(x, y);
+    });
+  }
+  if (params.passes == 1) return out;
+  for_rows(out.height(), [&](int y) {
+    for (int x = 0; x < out.width(); ++x) out(x, y) /= static_cast<float>(params.passes);
   });
   return out;
 }

@@ -28,10 +28,9 @@ struct ScalableAoRow {
   filter::Lens lens;
   DepthLevels depth;
   std::span<const Tap> taps;
-  float radius_m;
-  float radius_px_x, radius_px_y;  ///< of radius_m: at a depth of 1 m (perspective), everywhere (orthographic)
-  float max_radius_px;             ///< of the vertical projected radius; +inf: no clamp
-  float bias, scale;
+  const ScalableAoParams& params;
+  float radius_px_x, radius_px_y;        ///< of radius_m: at a depth of 1 m (perspective), everywhere (orthographic)
+  float max_radius_px;                   ///< of the vertical projected radius; +inf: no clamp
   float noise_turns;                     ///< added to every pixel's rotation
   std::array<float, 16> rotation_turns;  ///< 4x4, by absolute texel
   int texel_x, texel_y;                  ///< absolute texel coordinates of the grid's (0, 0)
@@ -64,16 +63,33 @@ inline Point tap_point(const DepthLevels& depth, const filter::Lens& lens, Int x
   return filter::unproject(lens, to_float(px), to_float(py), z);
 }
 
-/// "Falloff Function" slide: max(1 - |v| / r, 0) * max((v / |v|) . n - bias, 0); v = 0 does not occlude.
-inline Float tap_occlusion(Point v, Point normal, Float radius, float bias) {
-  const Float length = sqrt(dot(v, v));
-  const Float distance_falloff = max(1.0F - length / radius, 0.0F);
-  const Float angular_falloff = max(dot(v, normal) / length - bias, 0.0F);
-  return select(length > 0.0F, distance_falloff * angular_falloff, 0.0F);
+/// Of d = |v| / r. Linear: "Falloff Function" slide; the others: SAO's factors without their units (algorithms 4.3, B
+/// HQ, B fast and A).
+inline Float distance_falloff(DistanceFalloff kind, Float d) {
+  const Float linear = max(1.0F - d, 0.0F), quadratic = max(1.0F - d * d, 0.0F);
+  switch (kind) {
+    case DistanceFalloff::linear:
+      return linear;
+    case DistanceFalloff::quadratic:
+      return quadratic;
+    case DistanceFalloff::cubic:
+      return quadratic * quadratic * quadratic;
+    case DistanceFalloff::none:
+      break;
+  }
+  return select(d < 1.0F, Float(1.0F), 0.0F);
 }
 
-/// Projected radius of a pixel at depth z. The clamp shortens the radius itself, in metres too, so that the falloff
-/// still reaches 0 at the outermost tap (ours: the slide says no more than "clamp radius to ~20 pixels").
+/// "Falloff Function" slide: max(1 - |v| / r, 0) * max((v / |v|) . n - bias, 0), and its text: "before normalizing the
+/// vector we apply a small bias", (v . n - bias_m) / |v|. v = 0 does not occlude.
+inline Float tap_occlusion(Point v, Point normal, Float radius, const ScalableAoParams& params) {
+  const Float length = sqrt(dot(v, v));
+  const Float angular_falloff = max((dot(v, normal) - params.bias_m) / length - params.bias, 0.0F);
+  return select(length > 0.0F, distance_falloff(params.falloff, length / radius) * angular_falloff, 0.0F);
+}
+
+/// Projected radius of a pixel at depth z. RadiusClamp::radius shortens the radius itself, in metres too, so that the
+/// falloff still reaches 0 at the outermost tap.
 struct ProjectedRadius {
   Float x_px, y_px, m;
 };
@@ -83,19 +99,21 @@ inline ProjectedRadius projected_radius(const ScalableAoRow& row, Float z) {
   const Float x_px = row.radius_px_x / depth, y_px = row.radius_px_y / depth;
   const Mask clamped = y_px > row.max_radius_px;
   const Float share = select(clamped, row.max_radius_px / y_px, 1.0F);
-  return {min(x_px * share, kFarOutside), min(y_px * share, kFarOutside), row.radius_m * share};
+  return {min(x_px * share, kFarOutside), min(y_px * share, kFarOutside),
+          row.params.radius_clamp == RadiusClamp::radius ? row.params.radius_m * share : Float(row.params.radius_m)};
 }
 
 /// What all taps together would weigh in scalable_ao_row, added in the same order.
-inline float falloff_sum(std::span<const Tap> taps) {
-  float sum = 0;
-  for (const Tap& tap : taps) sum += 1.0F - tap.radius;
+inline Float falloff_sum(std::span<const Tap> taps, DistanceFalloff falloff) {
+  Float sum = 0.0F;
+  for (const Tap& tap : taps) sum += distance_falloff(falloff, tap.radius);
   return sum;
 }
 
 inline void scalable_ao_row(const ScalableAoRow& row, int y) {
   const Samples& image = row.depth.levels[0];
-  const float all_inside = falloff_sum(row.taps), tap_count = static_cast<float>(row.taps.size());
+  const Float all_inside = falloff_sum(row.taps, row.params.falloff);
+  const auto tap_count = static_cast<float>(row.taps.size());
   for (int x0 = 0; x0 < row.grid.depth.width; x0 += kLanes) {
     const Int x = row.grid.depth.clamp_x(iota(x0)), iy = y;
     const Float z = row.grid.depth(x, iy);
@@ -118,16 +136,16 @@ inline void scalable_ao_row(const ScalableAoRow& row, int y) {
           clamp(floor_log2(max(tap.radius * longest, kMinTapPx)) - Int(kLogMaxOffset), 0, row.depth.count - 1);
       const Mask in_frame = image.contains(tx, ty);
       const Point point = tap_point(row.depth, row.lens, image.clamp_x(tx), image.clamp_y(ty), level);
-      const Float occlusion = tap_occlusion(point - centre, normal, radius.m, row.bias);
+      const Float occlusion = tap_occlusion(point - centre, normal, radius.m, row.params);
       sum += select(in_frame & filter::is_surface(point.z), occlusion, 0.0F);
-      inside += select(in_frame, Float(1.0F - tap.radius), 0.0F);
+      inside += select(in_frame, distance_falloff(row.params.falloff, tap.radius), 0.0F);
     }
     // "Total Occlusion" slide: AO_T = (2 scale / S sum AO_s)^2. Taps outside the image are made up for (ours), since to
     // count them as open would brighten the borders: they stand for as much occlusion as those inside, each by the
     // distance falloff of its radius. The factor is 1 where all taps are inside. Taps on background count as open.
     const Float mean = sum / tap_count * select(inside > 0.0F, all_inside / inside, 0.0F);
-    const Float total = 2.0F * row.scale * mean;
-    store(row.out + x0, select(here, 1.0F - sat(total * total), 1.0F));
+    const Float total = 2.0F * row.params.scale * mean;
+    store(row.out + x0, select(here, 1.0F - sat(row.params.squared ? total * total : total), 1.0F));
   }
 }
 

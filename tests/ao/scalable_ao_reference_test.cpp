@@ -12,13 +12,31 @@
 namespace aftershade::tests {
 namespace {
 
+using ao::DistanceFalloff;
+using ao::RadiusClamp;
 using ao::ScalableAoParams;
 using ao::TapPattern;
 
-/// AO_s of the "Falloff Function" slide.
-double falloff(const Vec3& v, const Vec3& n, double r, double bias) {
-  const double length = v.length();
-  return length == 0 ? 0 : std::max(1 - length / r, 0.0) * std::max(v.dot(n) / length - bias, 0.0);
+/// AO_s of the "Falloff Function" slide, with the bias of its text, and the falloffs of algorithms 4.3.
+double distance_falloff(DistanceFalloff kind, double d) {
+  if (d >= 1) return 0;
+  switch (kind) {
+    case DistanceFalloff::linear:
+      return 1 - d;
+    case DistanceFalloff::quadratic:
+      return 1 - d * d;
+    case DistanceFalloff::cubic:
+      return std::pow(1 - d * d, 3);
+    case DistanceFalloff::none:
+      break;
+  }
+  return 1;
+}
+double falloff(const Vec3& v, const Vec3& n, double r, const ScalableAoParams& params) {
+  const double length = v.length(), bias = static_cast<double>(params.bias),
+               bias_m = static_cast<double>(params.bias_m);
+  if (length == 0) return 0;
+  return distance_falloff(params.falloff, length / r) * std::max((v.dot(n) - bias_m) / length - bias, 0.0);
 }
 
 struct Twin {
@@ -41,6 +59,12 @@ struct Twin {
   }
 
   double visibility(int x, int y) const {
+    double sum = 0;
+    for (int pass = 0; pass < params.passes; ++pass) sum += visibility_of_pass(x, y, pass);
+    return sum / params.passes;
+  }
+
+  double visibility_of_pass(int x, int y, int pass) const {
     if (!is_surface(x, y)) return 1;
     const Vec3 centre = point(x, y), n(p.normals[0](x, y), p.normals[1](x, y), p.normals[2](x, y));
     const bool mirrored = params.pattern == TapPattern::mirrored;
@@ -50,27 +74,29 @@ struct Twin {
     const double limit =
         static_cast<double>(params.max_radius_px) * p.display_height / static_cast<double>(params.reference_height_px);
     const double share = params.max_radius_px > 0 ? std::min(1.0, limit / r_y) : 1;
-    const double rotation = kBayer4x4[static_cast<size_t>(((p.origin_y + y) & 3) * 4 + ((p.origin_x + x) & 3))];
+    const double falloff_radius = params.radius_m * (params.radius_clamp == RadiusClamp::radius ? share : 1);
+    const double bayer = kBayer4x4[static_cast<size_t>(((p.origin_y + y) & 3) * 4 + ((p.origin_x + x) & 3))];
+    const double rotation = bayer * (mirrored ? 0.5 : 1.0) + pass * 0.6180339887498949;
     double sum = 0;
     double inside = 0, all = 0;
     for (int i = 0; i < directions; ++i)
       for (int sign = 1; sign >= (mirrored ? -1 : 1); sign -= 2) {
         const double alpha = (i + 0.5) / directions;
-        all += 1 - alpha;
-        const double turns = (mirrored ? 0.5 : 1.0) * (alpha * ao::spiral_turns(directions) + rotation);
+        all += distance_falloff(params.falloff, alpha);
+        const double turns = (mirrored ? 0.5 : 1.0) * alpha * ao::spiral_turns(directions) + rotation;
         const double angle = 2 * std::numbers::pi * turns;
         const double rx = alpha * params.radius_m * lens.fx * scale * share, ry = alpha * r_y * share;
         const int tx = x + static_cast<int>(std::lround(sign * std::cos(angle) * std::max(0.75, rx)));
         const int ty = y + static_cast<int>(std::lround(sign * std::sin(angle) * std::max(0.75, ry)));
         if (tx < 0 || ty < 0 || tx >= p.depth.width() || ty >= p.depth.height()) continue;
-        inside += 1 - alpha;
+        inside += distance_falloff(params.falloff, alpha);
         const int level = std::clamp(static_cast<int>(std::floor(std::log2(std::max({0.75, rx, ry})))) - 3, 0, 5);
         const auto [sx, sy] = params.depth_mips ? source(tx, ty, level) : std::pair(tx, ty);
-        if (is_surface(sx, sy)) sum += falloff(point(sx, sy) - centre, n, params.radius_m * share, params.bias);
+        if (is_surface(sx, sy)) sum += falloff(point(sx, sy) - centre, n, falloff_radius, params);
       }
     const int taps = mirrored ? 2 * directions : directions;
     const double total = inside == 0 ? 0 : 2 * static_cast<double>(params.scale) / taps * sum * all / inside;
-    return 1 - std::min(1.0, total * total);
+    return 1 - std::min(1.0, params.squared ? total * total : total);
   }
 };
 
@@ -82,6 +108,23 @@ View bumps(const Lens& lens) {
     const double z = 3 + 0.4 * std::sin(u) * std::cos(v) + (x + 2 * y > 150 ? 0.7 : 0.0);
     return Hit{z, (lens.ray(x, y) * -1 + Vec3(0.3 * std::cos(u), 0.2 * std::sin(v), 0)).normalized()};
   };
+}
+
+void expect_twin(const ScalableAoParams& params, const Picture& p, const Lens& lens) {
+  const filter::DepthPyramid pyramid(p.depth, 6, p.origin_x, p.origin_y);
+  const Plane fast = ao::scalable_ao(params, p.surface(), pyramid, filter::full_grid(p.surface()), 0);
+  const Twin twin{params, p, lens};
+  int off = 0;
+  double dark = 0;
+  for (int y = 0; y < p.depth.height(); ++y)
+    for (int x = 0; x < p.depth.width(); ++x) {
+      const double exact = twin.visibility(x, y);
+      off += !(std::abs(fast(x, y) - exact) < 2e-4);  // a tap whose position rounds the other way
+      dark += 1 - exact;
+    }
+  const int allowed = params.passes * p.depth.width() * p.depth.height() / 1000;
+  EXPECT_LT(off, allowed) << params::write(ScalableAoParams::table(), &params);
+  EXPECT_GT(dark, 500) << params::write(ScalableAoParams::table(), &params);
 }
 
 TEST(ScalableAoReference, AgreesWithTheTwin) {
@@ -97,21 +140,40 @@ TEST(ScalableAoReference, AgreesWithTheTwin) {
         params.depth_mips = mips;
         params.max_radius_px = variants % 2 == 0 ? 0.0F : 20.0F;
         params.reference_height_px = 97;
-        const filter::DepthPyramid pyramid(p.depth, 6, p.origin_x, p.origin_y);
-        const Plane fast = ao::scalable_ao(params, p.surface(), pyramid, filter::full_grid(p.surface()), 0);
-        const Twin twin{params, p, lens};
-        int off = 0;
-        double dark = 0;
-        for (int y = 0; y < p.depth.height(); ++y)
-          for (int x = 0; x < p.depth.width(); ++x) {
-            const double exact = twin.visibility(x, y);
-            off += !(std::abs(fast(x, y) - exact) < 2e-4);  // a tap whose position rounds the other way
-            dark += 1 - exact;
-          }
-        EXPECT_LT(off, 141 * 97 / 1000) << orthographic << mips << static_cast<int>(pattern);
-        EXPECT_GT(dark, 500);
+        expect_twin(params, p, lens);
         ++variants;
       }
+}
+
+TEST(ScalableAoReference, AgreesWithTheTwinWhereTheSlidesLeaveRoom) {
+  const Lens lens{120, 100, 71, 43};
+  const Picture p = picture(141, 97, lens, bumps(lens), -5, 3);
+  ScalableAoParams params;
+  params.scale = 1.5F;
+  for (const DistanceFalloff falloff :
+       {DistanceFalloff::linear, DistanceFalloff::quadratic, DistanceFalloff::cubic, DistanceFalloff::none}) {
+    params.falloff = falloff;
+    expect_twin(params, p, lens);
+  }
+  ScalableAoParams text;  // "before normalizing the vector we apply a small bias"
+  text.bias = 0;
+  text.bias_m = 0.03F;
+  expect_twin(text, p, lens);
+  ScalableAoParams clamped;
+  clamped.max_radius_px = 15;
+  clamped.reference_height_px = 97;
+  clamped.radius_clamp = RadiusClamp::taps;
+  expect_twin(clamped, p, lens);
+  ScalableAoParams linear_sum;
+  linear_sum.squared = false;
+  linear_sum.scale = 1;
+  expect_twin(linear_sum, p, lens);
+  ScalableAoParams repeated;
+  repeated.passes = 3;
+  repeated.taps = 4;
+  expect_twin(repeated, p, lens);
+  repeated.pattern = TapPattern::mirrored;
+  expect_twin(repeated, p, lens);
 }
 
 /// A floor and a perpendicular wall seen from 45 degrees: z = z0 - |Y|, distance from the edge sqrt(2) |Y|.
@@ -132,12 +194,14 @@ double corner_integral(double distance) {
   const double h = -distance / std::numbers::sqrt2;
   const Vec3 n = Vec3(0, 1, -1).normalized();
   constexpr int kRadii = 1000, kAngles = 720;
+  ScalableAoParams params;
+  params.bias = 0;
   double sum = 0;
   for (int k = 0; k < kAngles; ++k) {
     const double angle = 2 * std::numbers::pi * (k + 0.5) / kAngles, x = std::cos(angle), y = std::sin(angle);
     for (int i = 0; i < kRadii; ++i) {
       const double r = (i + 0.5) / kRadii, tap_h = h + r * y;
-      sum += falloff({r * x, r * y, std::abs(h) - std::abs(tap_h)}, n, 1, 0);
+      sum += falloff({r * x, r * y, std::abs(h) - std::abs(tap_h)}, n, 1, params);
     }
   }
   return std::pow(2 * sum / kRadii / kAngles, 2);

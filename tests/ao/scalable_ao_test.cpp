@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "core/metrics/image_metrics.h"
 #include "core/parallel/rows.h"
 #include "tests/filter/analytic_surface.h"
 
@@ -154,11 +155,13 @@ TEST(ScalableAo, IsTheSameToTheBitWhenTheUnitOfLengthChanges) {
     const Lens lens{150, 130, 80, 60, orthographic};
     const Picture p = picture(160, 120, lens, room(lens));
     for (ScalableAoParams params : {ScalableAoParams{}, current_gen()}) {
+      params.bias_m = 0.001F;
       const Plane metres = occlude(params, p);
       EXPECT_GT(pixels_below(metres, 0.9F), 0);
       for (const float factor : {1024.0F, 1 / 4096.0F}) {
         ScalableAoParams other = params;
         other.radius_m *= factor;
+        other.bias_m *= factor;
         EXPECT_EQ(differing_pixels(metres, occlude(other, scaled(p, factor))), 0) << factor << orthographic;
       }
     }
@@ -242,6 +245,51 @@ TEST(ScalableAo, WorksForEverySmallSizeAndCrossedExtremes) {
         params.radius_m = 1e6F;
         EXPECT_EQ(pixels_below(occlude(params, p), 0), 0);
       }
+}
+
+TEST(ScalableAo, PassesAreRunsWithOtherRotationsAveraged) {
+  const Lens lens{150, 150, 80, 60};
+  const Picture p = picture(160, 120, lens, room(lens));
+  ScalableAoParams params = current_gen();
+  params.per_frame_noise = true;
+  const Plane first = occlude(params, p, 6), second = occlude(params, p, 7);
+  params.passes = 2;
+  const Plane both = occlude(params, p, 3);  // seeds 6 and 7
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 160; ++x) ASSERT_EQ(both(x, y), (first(x, y) + second(x, y)) / 2) << x << ' ' << y;
+  // More passes: nearer to their limit, and as bright.
+  params.per_frame_noise = false;
+  params.passes = 64;
+  const Plane limit = occlude(params, p);
+  const auto score = [&](int passes) {
+    params.passes = passes;
+    const Plane out = occlude(params, p);
+    return std::pair(metrics::rmse(out, limit), metrics::mean_error(out, limit));
+  };
+  const auto [noise_of_one, bias_of_one] = score(1);
+  const auto [noise_of_many, bias_of_many] = score(16);
+  std::printf("1 pass: RMS %.4f, bias %.5f; 16 passes: RMS %.4f, bias %.5f\n", noise_of_one, bias_of_one, noise_of_many,
+              bias_of_many);
+  EXPECT_LT(noise_of_many, noise_of_one / 6);
+  EXPECT_LT(std::abs(bias_of_one), 5e-4);
+}
+
+TEST(ScalableAo, AClampOfTheTapsAloneOccludesMore) {
+  const Lens lens{150, 150, 80, 60};
+  const Picture p = picture(160, 120, lens, room(lens));
+  ScalableAoParams params = current_gen();
+  params.max_radius_px = 8;
+  params.reference_height_px = 120;
+  const Plane shortened = occlude(params, p);
+  params.radius_clamp = ao::RadiusClamp::taps;
+  const Plane taps = occlude(params, p);
+  EXPECT_GT(differing_pixels(taps, shortened), 100);
+  for (int y = 0; y < 120; ++y)
+    for (int x = 2; x < 158; ++x) ASSERT_LE(taps(x, y), shortened(x, y) + 1e-6F) << x << ' ' << y;
+  params.max_radius_px = 0;
+  const Plane unclamped = occlude(params, p);
+  params.radius_clamp = ao::RadiusClamp::radius;
+  EXPECT_EQ(differing_pixels(unclamped, occlude(params, p)), 0) << "without a clamp there is no difference";
 }
 
 TEST(ScalableAo, ClampIsMeantAtTheReferenceHeight) {
