@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "core/ao/apply_ao.h"
+#include "core/ao/hbao.h"
 #include "core/ao/scalable_ao.h"
 #include "core/ao/sphere_kernel.h"
 #include "core/filter/bilateral_blur.h"
@@ -18,10 +19,10 @@ namespace aftershade::preset {
 /// THE list of methods. A method is added by writing its files and putting its parameter struct here (and its stage in
 /// core/pipeline, which the compiler then asks for); JSON, --set, help, manual, schema and the property tests loop over
 /// it.
-using StageParams =
-    std::variant<ao::ScalableAoParams, ao::SphereKernelParams, AccumulativeSsaoParams, TemporalRefinementParams,
-                 filter::BilateralBlurParams, filter::BilateralUpsampleParams, filter::CrossBilateralBlurParams,
-                 temporal::SelectiveTemporalParams, ao::ApplyAoParams, motionblur::ScalableBlurParams>;
+using StageParams = std::variant<ao::ScalableAoParams, ao::HbaoParams, ao::SphereKernelParams, AccumulativeSsaoParams,
+                                 TemporalRefinementParams, filter::BilateralBlurParams, filter::BilateralUpsampleParams,
+                                 filter::CrossBilateralBlurParams, temporal::SelectiveTemporalParams, ao::ApplyAoParams,
+                                 motionblur::ScalableBlurParams>;
 
 /// Calls `visit(std::type_identity<Params>{})` for every method in the list's order.
 template <class Visit>
