@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 #include "core/base/error.h"
@@ -33,17 +34,23 @@ std::vector<std::string> ids(const Preset& preset) {
 
 using Ids = std::vector<std::string>;
 
-TEST(ShippedPresets, AreTheSix) {
-  EXPECT_EQ(shipped_presets(),
-            (Ids{"high-current-gen", "high-dx11", "low-current-gen", "low-dx11", "ultra-current-gen", "ultra-dx11"}));
+const Ids kSets{"high-current-gen", "high-dx11", "low-current-gen", "low-dx11", "ultra-current-gen", "ultra-dx11"};
+
+TEST(ShippedPresets, HaveTheSixSets) {
+  const Ids shipped = shipped_presets();
+  for (const std::string& name : kSets)
+    EXPECT_NE(std::find(shipped.begin(), shipped.end(), name), shipped.end()) << name;
 }
 
 class ShippedPreset : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(All, ShippedPreset, testing::ValuesIn(shipped_presets()), [](const auto& param) {
+class Set : public ShippedPreset {};
+std::string test_name(const testing::TestParamInfo<std::string>& param) {
   std::string name = param.param;
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
-});
+}
+INSTANTIATE_TEST_SUITE_P(All, ShippedPreset, testing::ValuesIn(shipped_presets()), test_name);
+INSTANTIATE_TEST_SUITE_P(All, Set, testing::ValuesIn(kSets), test_name);
 
 TEST_P(ShippedPreset, LoadsAndRoundTrips) {
   const Preset preset = load_preset(GetParam()).preset;
@@ -53,13 +60,14 @@ TEST_P(ShippedPreset, LoadsAndRoundTrips) {
   EXPECT_EQ(from_json(reparsed, preset.name), preset);
 }
 
-TEST_P(ShippedPreset, SaysWhatIsOurs) {
+TEST_P(ShippedPreset, SaysWhatIsOursAndWhoseTheRestIs) {
   const std::string description = load_preset(GetParam()).preset.description;
-  EXPECT_TRUE(description.find("Ours") != std::string::npos || description.find(" ours ") != std::string::npos);
-  EXPECT_NE(description.find("SIGGRAPH 2012"), std::string::npos);
+  EXPECT_TRUE(std::regex_search(description, std::regex("\\b([Oo]urs|[Aa]ssumed|no public source)\\b"))) << description;
+  EXPECT_TRUE(std::regex_search(description, std::regex("\\b20[01][0-9]\\b")))
+      << "no year of a source: " << description;
 }
 
-TEST_P(ShippedPreset, HasStagesInTheirOrder) {
+TEST_P(Set, HasStagesInTheirOrder) {
   const Preset preset = load_preset(GetParam()).preset;
   const bool half = get<ao::ScalableAoParams>(preset, "ao").resolution == ao::Resolution::half;
   Ids expected{"ao", "blur", "upsample", "temporal", "apply", "motion_blur"};
@@ -116,6 +124,31 @@ TEST(ShippedPresets, HighDx11IsTheSeedsSet) {
   EXPECT_EQ(blur.jitter, motionblur::Jitter::random4x4);
   EXPECT_EQ(blur.directions, motionblur::Directions::alternate);
   EXPECT_EQ(blur.shutter_frames, 0.5F);
+}
+
+TEST(ShippedPresets, VicariousVisionsAreTheTalksTwoSetsAndNothingBeside) {
+  const Preset dx11 = load_preset("vicarious-visions-dx11").preset;
+  const Preset current_gen = load_preset("vicarious-visions-current-gen").preset;
+  for (const Preset* preset : {&dx11, &current_gen}) {
+    EXPECT_EQ(ids(*preset), (Ids{"ao", "blur", "apply", "motion_blur"}));
+    const auto& ao = get<ao::ScalableAoParams>(*preset, "ao");
+    EXPECT_EQ(ao.resolution, ao::Resolution::full);
+    EXPECT_EQ(ao.falloff, ao::DistanceFalloff::linear);
+    EXPECT_TRUE(ao.squared);
+    EXPECT_EQ(ao.bias_m, 0);
+    EXPECT_GT(ao.bias, 0);
+    EXPECT_FALSE(ao.per_frame_noise);
+    EXPECT_GE(get<filter::BilateralBlurParams>(*preset, "blur").radius_px, 8) << "wider than the 4x4 pattern";
+  }
+  // Taps, clamp, mips and motion blur: those of the sets that the other presets are made of.
+  for (const auto& [talk, set] :
+       {std::pair{&dx11, load_preset("high-dx11").preset}, {&current_gen, load_preset("high-current-gen").preset}}) {
+    auto ao = get<ao::ScalableAoParams>(*talk, "ao");
+    ao.resolution = get<ao::ScalableAoParams>(set, "ao").resolution;
+    EXPECT_EQ(ao, get<ao::ScalableAoParams>(set, "ao"));
+    EXPECT_EQ(get<motionblur::ScalableBlurParams>(*talk, "motion_blur"),
+              get<motionblur::ScalableBlurParams>(set, "motion_blur"));
+  }
 }
 
 TEST(ShippedPresets, LowIsCheaperAndUltraFiner) {
