@@ -68,7 +68,7 @@ void choose_unit(const InputArgs& args, const io::CameraFile* camera, Input& inp
 
 }  // namespace
 
-Input open_input(const InputArgs& args) {
+Input open_input(const InputArgs& args, const std::vector<std::string>& named_channels) {
   Input input;
   input.found = io::find_sequence(args.input, hash_digits(args.hash_digits));
   select_frames(args, input);
@@ -96,6 +96,7 @@ Input open_input(const InputArgs& args) {
     throw Error(ErrorCode::usage, cat("--fov ", *args.fov_deg, " is out of range"), "between 0 and 180 degrees");
   options.ao_layers = args.ao_layers;
   options.blur_layers = args.blur_layers;
+  options.named_channels = named_channels;
   options.nan_is_error = args.nan == "error";
   input.source = std::make_unique<io::FileSource>(std::move(options));
   input.source->on_note = [](int frame, const std::string& text) { log().note(text, cat("frame ", frame, ": ")); };

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 
@@ -9,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/publish.h"
+#include "core/pipeline/named_channels.h"
 
 namespace aftershade::app {
 
@@ -111,6 +113,15 @@ pipeline::Outputs outputs_of(const RenderArgs& args, const io::FileInfo& info) {
   return outputs;
 }
 
+/// What is filtered as a named channel must not be written by others too.
+void check_channels(const Job& job, const pipeline::Outputs& outputs, const std::vector<std::string>& channels) {
+  const pipeline::ViewPipeline& view = job.views.back();
+  if (view.layers(view.stages())) job.input.source->check_layers_and_named(view.view());
+  if (outputs.ao_channel && std::ranges::find(channels, *outputs.ao_channel) != channels.end())
+    throw Error(ErrorCode::usage, cat("the AO goes to channel ", *outputs.ao_channel, ", which the preset filters"),
+                "filter the channel in a run of its own");
+}
+
 }  // namespace
 
 bool has_channel(const io::FileInfo& info, const std::string& view, const std::string& name) {
@@ -122,8 +133,9 @@ bool has_channel(const io::FileInfo& info, const std::string& view, const std::s
 
 Job resolve_job(const RenderArgs& args) {
   Job job;
-  job.input = open_input(args);
   job.preset = resolve_preset(args);
+  const std::vector<std::string> channels = pipeline::named_channels(job.preset.preset);
+  job.input = open_input(args, channels);
   job.preroll = preroll_of(args.preroll);
   job.written = job.input.frames;
   job.output_path = output_paths(args, job.input.found.pattern, job.written.size());
@@ -143,8 +155,10 @@ Job resolve_job(const RenderArgs& args) {
   if (!args.camera.empty() && job.input.source->has_header_camera(job.input.views.front()))
     log().note("--camera is not used: the frames have camera matrices in their headers");
   for (const std::string& view : job.input.views)
-    with_context(view.empty() ? job.input.found.pattern.text() : "view " + view,
-                 [&] { job.views.emplace_back(job.preset.preset, view, offer_of(job.input, view), outputs); });
+    with_context(view.empty() ? job.input.found.pattern.text() : "view " + view, [&] {
+      job.views.emplace_back(job.preset.preset, view, offer_of(job.input, view), outputs);
+      check_channels(job, outputs, channels);
+    });
   return job;
 }
 

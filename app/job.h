@@ -28,8 +28,9 @@ struct Input {
 /// The meaning of --hash-digits "one" or "oiio".
 io::HashDigits hash_digits(const std::string& name);
 
-/// Opens INPUT. Throws for everything that is wrong with it; holes are an error unless --missing skip.
-Input open_input(const InputArgs& args);
+/// Opens INPUT; `named_channels` are those that stages filter. Throws for everything that is wrong with it; holes are
+/// an error unless --missing skip.
+Input open_input(const InputArgs& args, const std::vector<std::string>& named_channels = {});
 
 /// What the AO is called in a file that already has a channel AO.
 inline constexpr const char* kOwnAoChannel = "aftershade.AO";

@@ -75,13 +75,14 @@ Json lengths_report(const preset::Preset& preset, const Frame& frame, double dep
   int grid_step = 1;
   for (const preset::StageDescription& stage : preset.stages) {
     if (const auto resolution = value(stage, "resolution")) grid_step = *resolution == "half" ? 2 : 1;
+    const auto channel = value(stage, "channel");
+    const int step = channel && *channel != "" ? 1 : grid_step;  // named channels are filtered at every pixel
     for (const params::Record& record : preset::table_of(stage.params)) {
       if (!record.key.ends_with("_m")) continue;
       const double metres = record.get(preset::values_of(stage.params)).get<double>();
-      const Length length = record.key == "radius_m" ? radius(stage, metres, scale, frame.display.height())
-                            : record.key.ends_with("distance_m")
-                                ? threshold(stage, record.key, metres, scale, grid_step)
-                                : Length{metres * scale.px_per_m_x, ""};
+      const Length length = record.key == "radius_m"             ? radius(stage, metres, scale, frame.display.height())
+                            : record.key.ends_with("distance_m") ? threshold(stage, record.key, metres, scale, step)
+                                                                 : Length{metres * scale.px_per_m_x, ""};
       const std::string key = stage.id + "." + record.key;
       report[key] = cat(metres, " m, ", fixed(length.px, 1), " px", length.remark);
       if (record.key == "radius_m") warn_of(key, length.px, frame.display);

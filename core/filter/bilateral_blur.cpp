@@ -23,6 +23,9 @@ const params::Table& BilateralBlurParams::table() {
   using P = BilateralBlurParams;
   static const params::Table records =
       params::TableBuilder<P>()
+          .add("channel", &P::channel,
+               "Name of a channel of the file, without its view, that is blurred at full resolution and written back; "
+               "empty for the AO.")
           .add("radius_px", &P::radius_px, {0, 64},
                "Reach of the blur to each side, in texels of the AO's own grid at the reference height; 0 switches it "
                "off.")

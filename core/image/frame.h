@@ -33,14 +33,19 @@ struct Frame {
   int number = 0;
   std::string view;  ///< "" when the file has no views
   int part = 0;      ///< the part of the file that added channels go to: the beauty's
-  Window window;     ///< union of the data windows of all roles and layers of the view, whichever of them are loaded
+  Window window;  ///< union of the data windows of the view's roles, layers and named channels, whichever of them are
+                  ///< loaded
   Window display;
   float pixel_aspect = 1;  ///< width / height of a pixel
   std::optional<Camera> camera;
   std::optional<float> shutter_angle_deg;  ///< the header's shutterAngle: 360 exposes the whole frame interval
   std::array<std::vector<Plane>, kRoleCount> roles;
   std::vector<Layer> layers;
-  /// Channels to add, by name without view ("AO", "aftershade.mask"); half in the file unless it has them already.
+  /// Single channels of the file that filters work on, by the name a preset gives them (without view), as they are
+  /// stored; NaN, which filters leave out, where the file has no pixel.
+  std::map<std::string, Plane> named;
+  /// Channels to add, by name without view ("AO", "aftershade.mask"); half in the file unless `part` has them already.
+  /// A name that is also in `named` means that channel, in whichever part it lies: its pixels change, nothing else.
   std::map<std::string, Plane> added;
 
   bool has(Role role) const { return !roles[static_cast<size_t>(role)].empty(); }

@@ -27,8 +27,6 @@ int alpha_of(const std::vector<ChannelRef>& channels) {
   return -1;
 }
 
-bool same(const ChannelRef& a, const ChannelRef& b) { return a.part == b.part && a.channel == b.channel; }
-
 std::optional<ColorBinding> find_beauty(const ViewChannels& channels, const Profile& profile,
                                         const std::map<std::string, std::string>& overrides) {
   std::optional<std::vector<ChannelRef>> refs;
@@ -101,6 +99,18 @@ bool is_cryptomatte(const std::string& layer, const std::vector<std::string>& cr
                      [&](const std::string& name) { return ends_with_digits_after(layer, name); });
 }
 
+[[noreturn]] void refuse_cryptomatte(const std::string& name) {
+  throw Error(ErrorCode::usage, cat("\"", name, "\" is a Cryptomatte: its identifiers cannot be changed"));
+}
+
+/// "shadow.R, shadow.G, shadow.B" for the layer "shadow"; "" if there is no such layer.
+std::string channels_of_layer(const ViewChannels& channels, const std::string& layer) {
+  std::vector<std::string> names;
+  for (const NamedChannel& channel : channels.all())
+    if (!layer.empty() && layer_of(channel.name) == layer) names.push_back(channel.name);
+  return join(names, ", ");
+}
+
 }  // namespace
 
 std::vector<std::string> cryptomatte_names(const ExrReader& file) {
@@ -122,9 +132,8 @@ std::vector<ColorBinding> resolve_colors(const FileInfo& info, const std::string
     if (is_cryptomatte(group.layer, cryptomattes)) continue;
     auto color = as_color(group);
     if (!color) continue;
-    const bool known = std::any_of(out.begin(), out.end(), [&](const ColorBinding& c) {
-      return same(c.channels.front(), color->channels.front());
-    });
+    const bool known = std::any_of(
+        out.begin(), out.end(), [&](const ColorBinding& c) { return c.channels.front() == color->channels.front(); });
     if (!known) out.push_back(std::move(*color));
   }
   return out;
@@ -139,8 +148,7 @@ ColorBinding find_layer(const FileInfo& info, const std::string& view, const std
         layer_of(name_in_view(info, color.channels[0].part, color.channels[0].channel, view).value_or(""));
     if (color.is_beauty && full == name) return color;
   }
-  if (is_cryptomatte(name, cryptomattes) || is_cryptomatte(layer_of(name), cryptomattes))
-    throw Error(ErrorCode::usage, cat("\"", name, "\" is a Cryptomatte: its identifiers cannot be changed"));
+  if (is_cryptomatte(name, cryptomattes) || is_cryptomatte(layer_of(name), cryptomattes)) refuse_cryptomatte(name);
   std::vector<std::string> known{"beauty"};
   for (const Group& group : groups_of(channels)) {
     known.push_back(group.layer);
@@ -156,6 +164,22 @@ ColorBinding find_layer(const FileInfo& info, const std::string& view, const std
   const std::string guess = did_you_mean(name, known);
   throw Error(ErrorCode::no_input, cat("there is no layer or channel \"", name, "\""),
               guess.empty() ? "the file has " + channels.listed() : guess);
+}
+
+ChannelRef find_channel(const FileInfo& info, const std::string& view, const std::string& name,
+                        const std::vector<std::string>& cryptomattes) {
+  const ViewChannels channels(info, view);
+  const NamedChannel* found = channels.find_exact(name);
+  if (!found) {
+    const std::string layer = channels_of_layer(channels, name), guess = did_you_mean(name, channels.names());
+    throw Error(ErrorCode::no_input, cat("there is no channel \"", name, "\""),
+                !layer.empty()  ? "a layer is called so: name one of its channels, " + layer
+                : guess.empty() ? "the file has " + channels.listed()
+                                : guess);
+  }
+  for (const NamedChannel& channel : channels.all())
+    if (channel.ref == found->ref && is_cryptomatte(layer_of(channel.name), cryptomattes)) refuse_cryptomatte(name);
+  return found->ref;
 }
 
 }  // namespace aftershade::io

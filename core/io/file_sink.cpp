@@ -38,10 +38,23 @@ Window window_of_added(const PartInfo& part, const Frame& frame) {
   return window;
 }
 
+/// A channel of the file that a filter has changed. One that is common to several views is written once.
+void add_named(const FileInfo& info, const Frame& frame, const std::string& name, const Plane& plane,
+               std::vector<ChannelWrite>& writes) {
+  const ChannelRef ref = find_channel(info, frame.view, name);
+  if (!has(writes, ref.part, ref.channel))
+    writes.push_back(
+        write_of(ref.part, ref.channel, frame, plane, info.parts.at(static_cast<size_t>(ref.part)).data_window));
+}
+
 /// `alone`: the file will have the added channels alone, so that none of them exists.
 void add_channels(const FileInfo& info, const Frame& frame, bool alone, std::vector<ChannelWrite>& writes) {
   const PartInfo& part = info.parts.at(static_cast<size_t>(frame.part));
   for (const auto& [name, plane] : frame.added) {
+    if (frame.named.contains(name)) {
+      if (!alone) add_named(info, frame, name, plane, writes);
+      continue;
+    }
     std::string channel = name_for_view(info, name, frame.view);
     if (has(writes, frame.part, channel)) channel = cat(frame.view, ".", channel);  // several views in one part
     writes.push_back(write_of(frame.part, channel, frame, plane, window_of_added(part, frame)));

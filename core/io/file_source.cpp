@@ -73,6 +73,7 @@ void FileSource::State::check(const FileInfo& frame, const ViewState& view_state
   for (const LayerChoice& layer : view_state.layers)
     for (const ChannelRef& ref : layer.binding.channels)
       check_channel(frame, resolved.first, ref, layer.binding.is_beauty ? "colour" : layer.binding.layer);
+  for (const NamedChoice& named : view_state.named) check_channel(frame, resolved.first, named.ref, "to be filtered");
   check_channel_set(frame, resolved.first);
 }
 
@@ -111,6 +112,7 @@ Window FileSource::State::working_window(const Files& files, const ViewState& of
       for (const ChannelRef& ref : binding.channels) window = united(window, data_window(*file, ref.part));
   for (const LayerChoice& layer : offer.layers)
     for (const ChannelRef& ref : layer.binding.channels) window = united(window, data_window(files.frame, ref.part));
+  for (const NamedChoice& named : offer.named) window = united(window, data_window(files.frame, named.ref.part));
   constexpr std::string_view kWhat = "the union of all data windows";
   check_window(window, kWhat, options.limits);
   if (int64_t{window.width()} * window.height() > options.limits.max_frame_bytes / int64_t{sizeof(float)})
@@ -209,12 +211,18 @@ void prepare_layers(Frame& frame, const ViewState& view, const ExrReader& file, 
       reader.add(file, view.layers[i].binding.channels[c], frame.layers[i].planes[c], false);
 }
 
+/// The same for named channels.
+void prepare_named(Frame& frame, const ViewState& view, const ExrReader& file, PlaneReader& reader) {
+  for (const NamedChoice& named : view.named) reader.add(file, named.ref, frame.named[named.name], false);
+}
+
 void allocate(Frame& frame, const std::vector<const RoleBinding*>& roles) {
   for (const RoleBinding* binding : roles)
     for (Plane& plane : frame.planes(binding->role))
       plane = Plane(frame.window.width(), frame.window.height(), outside(binding->role));
   for (Layer& layer : frame.layers)
     for (Plane& plane : layer.planes) plane = Plane(frame.window.width(), frame.window.height(), 0.0F);
+  for (auto& [name, plane] : frame.named) plane = Plane(frame.window.width(), frame.window.height(), kNan);
 }
 
 }  // namespace
@@ -240,6 +248,7 @@ std::optional<Frame> FileSource::load(int number, const std::string& view, RoleS
     PlaneReader reader;
     const auto roles = state.prepare_roles(frame, offer, asked, files, reader, notes);
     if (with_layers) prepare_layers(frame, offer, files.frame, reader);
+    prepare_named(frame, offer, files.frame, reader);
     allocate(frame, roles);
     const NanReport report = reader.read(frame.window, state.options.nan_is_error);
     if (on_nan && !(report.nan.empty() && report.infinite.empty())) on_nan(number, report);
@@ -248,6 +257,18 @@ std::optional<Frame> FileSource::load(int number, const std::string& view, RoleS
       if (on_note) on_note(number, note);
     return frame;
   });
+}
+
+void FileSource::check_layers_and_named(const std::string& view) const {
+  const ViewState& offer = state_->view(view);
+  for (const NamedChoice& named : offer.named)
+    for (const LayerChoice& layer : offer.layers)
+      if (std::ranges::find(layer.binding.channels, named.ref) != layer.binding.channels.end())
+        throw Error(
+            ErrorCode::usage,
+            cat("channel \"", named.name, "\" is to be filtered, but it belongs to the layer \"",
+                layer.binding.is_beauty ? "beauty" : layer.binding.layer, "\", which other stages change"),
+            "choose other layers with --ao-layers and --blur-layers, or filter the channel in a run of its own");
 }
 
 const FileInfo& FileSource::info() const { return state_->resolved.first; }

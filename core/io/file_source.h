@@ -36,6 +36,8 @@ struct SourceOptions {
   std::shared_ptr<const CameraFile> camera_file;
   std::optional<double> fov_deg;                    ///< horizontal; a camera without position
   std::vector<std::string> ao_layers, blur_layers;  ///< layer names; empty: the beauty. "beauty" names the beauty
+  /// Channels that stages filter (pipeline::named_channels), without view; Frame::named.
+  std::vector<std::string> named_channels;
   bool nan_is_error = false;
   ReadLimits limits;
 };
@@ -49,16 +51,21 @@ struct NanReport {
 /// first frame's (display window, channels, pixel aspect: Error(data) with frame and both values). Converts depth,
 /// normals, velocity and camera to canonical form; NaN and Inf colours stay in the layers, counted.
 ///
-/// A frame's window is the union of the data windows of all roles of the view that can be loaded, of its chosen layers
-/// and of Frame::part, whichever of them are loaded: what is computed from a frame does not depend on what else was
-/// asked for. A sibling sequence that lacks the frame has no part in it.
+/// A frame's window is the union of the data windows of all roles of the view that can be loaded, of its chosen layers,
+/// its named channels and Frame::part, whichever of them are loaded: what is computed from a frame does not depend on
+/// what else was asked for. A sibling sequence that lacks the frame has no part in it.
 class FileSource final : public FrameSource {
  public:
   explicit FileSource(SourceOptions options);
   ~FileSource() override;
+  /// Named channels are always loaded.
   /// Whoever asks for depth2 gets depth too: where the second is not beyond the first, it is +inf.
   /// May be called by several threads at once, if on_nan and on_note may: they are called by the loading threads.
   std::optional<Frame> load(int number, const std::string& view, RoleSet roles, bool with_layers) override;
+
+  /// Throws Error(usage) when a named channel belongs to a layer that --ao-layers and --blur-layers chose (the beauty
+  /// if they did not): stages that change layers and stages that filter channels cannot both have it.
+  void check_layers_and_named(const std::string& view) const;
 
   /// What the first frame shows; views, roles and layers are those of the whole sequence.
   const FileInfo& info() const;
@@ -88,7 +95,8 @@ struct SinkOptions {
 };
 /// Frames to EXR files: the source frame's file with changed layers and added channels (write_exr). A changed layer is
 /// written where its data window and the planes overlap; added channels cover the data window of Frame::part, or what
-/// it grows to, and overwrite channels of their name that the part has.
+/// it grows to, and overwrite channels of their name that the part has. Those that are named channels of the file stay
+/// in their own part and data window, and are left out of files with new channels alone.
 class FileSink final : public FrameSink {
  public:
   FileSink(const Sequence& sources, SinkOptions options);

@@ -13,6 +13,7 @@ namespace aftershade::io {
 struct ChannelRef {
   int part;
   std::string channel;
+  bool operator==(const ChannelRef&) const = default;
 };
 
 /// Where a role's planes come from, and why.
@@ -58,6 +59,11 @@ std::vector<ColorBinding> resolve_colors(const FileInfo& info, const std::string
 /// the nearest name; Error(usage) for a Cryptomatte.
 ColorBinding find_layer(const FileInfo& info, const std::string& view, const std::vector<ColorBinding>& colors,
                         const std::string& name, const std::vector<std::string>& cryptomattes = {});
+
+/// The one channel that a preset names, by its name in the view or its full name in the file. Error(no_input) with the
+/// nearest name, or the channels of the layer that is called so; Error(usage) for a Cryptomatte's.
+ChannelRef find_channel(const FileInfo& info, const std::string& view, const std::string& name,
+                        const std::vector<std::string>& cryptomattes = {});
 
 /// The names of the Cryptomattes that a file's headers declare.
 std::vector<std::string> cryptomatte_names(const ExrReader& file);

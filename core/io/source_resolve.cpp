@@ -93,10 +93,7 @@ std::vector<RoleBinding> bind_roles(const Resolved& resolved, const SourceOption
 }
 
 bool overlap(const ColorBinding& a, const ColorBinding& b) {
-  return std::any_of(a.channels.begin(), a.channels.end(), [&](const ChannelRef& c) {
-    return std::any_of(b.channels.begin(), b.channels.end(),
-                       [&](const ChannelRef& d) { return c.part == d.part && c.channel == d.channel; });
-  });
+  return std::ranges::find_first_of(a.channels, b.channels) != a.channels.end();
 }
 
 LayerChoice& choice_for(std::vector<LayerChoice>& layers, const ColorBinding& binding) {
@@ -139,6 +136,21 @@ std::vector<LayerChoice> choose_layers(const FileInfo& info, const std::string& 
   choose(options.blur_layers, &LayerChoice::blur);
   for (const LayerChoice& layer : layers) refuse_uint(info, layer.binding.channels, "colour");
   return layers;
+}
+
+std::vector<NamedChoice> choose_named(const FileInfo& info, const std::string& view, const SourceOptions& options,
+                                      const std::vector<std::string>& cryptomattes) {
+  std::vector<NamedChoice> named;
+  for (const std::string& name : options.named_channels) {
+    const ChannelRef ref = find_channel(info, view, name, cryptomattes);
+    refuse_uint(info, {ref}, "to be filtered");
+    for (const NamedChoice& other : named)
+      if (other.ref == ref)
+        throw Error(ErrorCode::usage, cat("\"", other.name, "\" and \"", name, "\" are the same channel"),
+                    "call it by one name");
+    named.push_back({name, ref});
+  }
+  return named;
 }
 
 }  // namespace
@@ -224,6 +236,7 @@ Resolved resolve(const SourceOptions& options) {
     state.colors = resolve_colors(out.first, view, options.profile, options.channel_overrides, cryptomattes);
     state.part = part_of_view(out.first, view, state.colors);
     state.layers = choose_layers(out.first, view, state.colors, options, cryptomattes);
+    state.named = choose_named(out.first, view, options, cryptomattes);
     const auto camera = with_context(out.first.path, [&] { return find_camera(file, options, number, view, nullptr); });
     state.header_camera = has_header_camera(file, options, view);
     check_roles(state, options, camera);

@@ -14,11 +14,18 @@ struct LayerChoice {
   bool ao = false, blur = false;
 };
 
+/// A channel that a filter works on.
+struct NamedChoice {
+  std::string name;  ///< as the preset has it
+  ChannelRef ref;
+};
+
 /// What one view of the sequence offers.
 struct ViewState {
   std::vector<RoleBinding> roles;
   std::vector<ColorBinding> colors;
   std::vector<LayerChoice> layers;
+  std::vector<NamedChoice> named;
   RoleSet available;
   int part = 0;  ///< of the beauty, else the view's first: where added channels go
   bool header_camera = false;

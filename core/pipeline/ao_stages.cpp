@@ -1,4 +1,5 @@
 #include "core/pipeline/ao_stage.h"
+#include "core/pipeline/named_channels.h"
 #include "core/pipeline/stage.h"
 
 namespace aftershade::pipeline {
@@ -14,18 +15,20 @@ class BilateralBlur final : public Stage {
   explicit BilateralBlur(const filter::BilateralBlurParams& params) : params_(params) {}
 
   Needs needs(const Offer&) const override {
-    Needs needs;
+    Needs needs = needs_of_value(params_.channel);
     needs.required = {Role::depth};
     needs.optional = {Role::normal};
-    needs.lens = needs.ao = needs.grid = true;
+    needs.lens = true;
     return needs;
   }
 
   void run(Work& work) override {
     const filter::Surface& surface = work.surface();
-    const bool on_grid = !work.ao_at_pixels || work.grid->step == 1;
-    work.ao = on_grid ? filter::bilateral_blur(params_, work.ao, *work.grid, surface)
-                      : filter::bilateral_blur(params_, work.ao, filter::full_grid(surface), surface);
+    const ConstPlaneView value = value_of(work, params_.channel);
+    const bool on_grid = params_.channel.empty() && (!work.ao_at_pixels || work.grid->step == 1);
+    put_value(work, params_.channel,
+              on_grid ? filter::bilateral_blur(params_, value, *work.grid, surface)
+                      : filter::bilateral_blur(params_, value, filter::full_grid(surface), surface));
   }
 
  private:

@@ -1,4 +1,7 @@
 #pragma once
+#include <string>
+#include <vector>
+
 #include "core/image/role.h"
 
 namespace aftershade::pipeline {
@@ -12,15 +15,16 @@ struct Offer {
 
 /// What a stage declares about itself, given what there is.
 struct Needs {
-  RoleSet required;           ///< roles without which the stage cannot run
-  RoleSet any_of;             ///< at least one of these (empty: no such demand)
-  RoleSet optional;           ///< roles it uses if they are there
-  RoleSet previous;           ///< roles it reads of frame f-1
-  bool lens = false;          ///< needs to know the field of view
-  bool position = false;      ///< needs to know where the camera stands
-  bool ao = false;            ///< works on AO made by an earlier stage ...
-  bool ao_at_pixels = false;  ///< ... which must be at full resolution by then
-  bool grid = false;          ///< ... and looks at the pixels that it was evaluated at
+  RoleSet required;                   ///< roles without which the stage cannot run
+  RoleSet any_of;                     ///< at least one of these (empty: no such demand)
+  RoleSet optional;                   ///< roles it uses if they are there
+  RoleSet previous;                   ///< roles it reads of frame f-1
+  bool lens = false;                  ///< needs to know the field of view
+  bool position = false;              ///< needs to know where the camera stands
+  bool ao = false;                    ///< works on AO made by an earlier stage ...
+  bool ao_at_pixels = false;          ///< ... which must be at full resolution by then
+  bool grid = false;                  ///< ... and looks at the pixels that it was evaluated at
+  std::vector<std::string> channels;  ///< works on these channels of the file: Frame::named
   bool makes_ao = false;
   bool makes_ao_at_pixels = false;
   bool layers = false;     ///< changes layers

@@ -5,9 +5,11 @@
 namespace aftershade::pipeline {
 
 namespace {
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+
 float background_of(Role role) {
   if (is_depth(role)) return std::numeric_limits<float>::infinity();
-  if (role == Role::velocity_prev || role == Role::velocity_next) return std::numeric_limits<float>::quiet_NaN();
+  if (role == Role::velocity_prev || role == Role::velocity_next) return kUnknown;
   return 0;
 }
 
@@ -48,7 +50,8 @@ void Work::change_window(Window window) {
     for (Plane& plane : frame.planes(role.role)) relay(plane, before, window, background_of(role.role));
   for (Layer& layer : frame.layers)
     for (Plane& plane : layer.planes) relay(plane, before, window, 0);
-  for (auto& [name, plane] : frame.added) relay(plane, before, window, 0);
+  for (auto& [name, plane] : frame.added) relay(plane, before, window, frame.named.contains(name) ? kUnknown : 0);
+  for (auto& [name, plane] : frame.named) relay(plane, before, window, kUnknown);
   if (ao_at_pixels) relay(ao, before, window, 1);
   frame.window = window;
   grid.reset();

@@ -41,7 +41,7 @@ class Work {
   const filter::DepthPyramid& pyramid();
 
   /// Lays the frame's planes and the AO into `window` (absolute coordinates): new pixels are background (depth +inf,
-  /// velocity unknown, AO 1, everything else 0), pixels outside are dropped.
+  /// velocity unknown, named channels NaN, AO 1, everything else 0), pixels outside are dropped.
   void change_window(Window window);
 
   void note(std::string text) { notes.push_back(std::move(text)); }

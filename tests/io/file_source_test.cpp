@@ -364,6 +364,43 @@ TEST_F(FileSourceTest, LayersAreChosenByName) {
              {"no colour channels", "the file has Y"});
 }
 
+TEST_F(FileSourceTest, NamedChannelsAreCheckedAtOnce) {
+  Picture picture;
+  picture.channels.emplace_back("shadow", 0.5F);
+  write("a.0001.exr", picture, [](const std::string& channel, Plane& plane) {
+    if (channel == "shadow") plane(2, 2) = kInf;
+  });
+  SourceOptions input = options();
+  input.named_channels = {"shadow"};
+  FileSource source(input);
+  NanReport counted;
+  source.on_nan = [&](int, const NanReport& report) { counted = report; };
+  for (const bool layers : {false, true}) {
+    const Frame frame = *source.load(1, "", {}, layers);
+    EXPECT_EQ(frame.named.at("shadow")(0, 0), 0.5F);
+    EXPECT_EQ(frame.named.at("shadow")(2, 2), kInf) << "as the file has it";
+    EXPECT_EQ(counted.infinite, (std::map<std::string, int64_t>{{"shadow", 1}}));
+  }
+  EXPECT_NO_THROW(source.check_layers_and_named(""));
+  input.named_channels = {"shadow", "G"};
+  expect_has(message([&] { FileSource(input).check_layers_and_named(""); }, ErrorCode::usage),
+             {"channel \"G\"", "layer \"beauty\"", "--ao-layers"});
+  input.named_channels = {"shado"};
+  expect_has(message([&] { FileSource other(input); }, ErrorCode::no_input), {"\"shado\"", "did you mean \"shadow\"?"});
+  picture.channels = {{"R", 1}, {"shadow.V", 1}};
+  write("b.0001.exr", picture);
+  SourceOptions views = options("b.####.exr");
+  views.named_channels = {"R", "R"};
+  expect_has(message([&] { FileSource other(views); }, ErrorCode::usage), {"the same channel"});
+  const Plane plane(8, 6, 1.0F);
+  NewFile ids{.display_window = {0, 0, 7, 5}, .data_window = {0, 0, 7, 5}, .channels = {}, .matrices = {}, .texts = {}};
+  ids.channels.push_back({"id", PixelType::uint, plane});
+  write_new_exr(ids, path("ids.0001.exr"));
+  SourceOptions whole = options("ids.####.exr");
+  whole.named_channels = {"id"};
+  expect_has(message([&] { FileSource other(whole); }, ErrorCode::data), {"channel id (to be filtered)", "uint"});
+}
+
 TEST_F(FileSourceTest, WorldNormalsNeedAPosition) {
   Picture picture;
   for (const char* name : {"N.X", "N.Y", "N.Z"}) picture.channels.emplace_back(name, 1.0F);

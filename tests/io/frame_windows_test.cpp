@@ -4,6 +4,7 @@
 #include <half.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "core/base/error.h"
@@ -197,6 +198,67 @@ TEST_F(FrameWindows, AddedChannelsCoverTheirPartAndOverwrite) {
   EXPECT_EQ(alone.info().parts[0].channels.size(), 2U);
   EXPECT_EQ(alone.info().parts[0].data_window, kColor);
   EXPECT_EQ(read_plane(alone, 0, "AO", kColor)(0, 0), static_cast<float>(half(0.3F)));
+}
+
+TEST_F(FrameWindows, NamedChannelsStayInTheirPart) {
+  make(color_depth_mask());
+  SourceOptions input = options();
+  input.named_channels = {"mask.m", "AO"};
+  FileSource source(input);
+  const Frame loaded = *source.load(1, "", {}, false);
+  EXPECT_EQ(loaded.window, kAll) << "their part counts";
+  ASSERT_EQ(loaded.named.size(), 2U);
+  EXPECT_TRUE(std::isnan(loaded.named.at("AO")(0, 0))) << "nothing in the file";
+  const auto changed = [&](float value) {
+    Frame frame = *source.load(1, "", {}, false);
+    for (const char* name : {"mask.m", "AO", "new"})
+      frame.added[name] = Plane(frame.window.width(), frame.window.height(), value);
+    return one(std::move(frame));
+  };
+  for (const auto policy : {DataWindowPolicy::keep, DataWindowPolicy::grow}) {
+    write(changed(0.3F), {.compression = {}, .data_window = policy});
+    const ExrReader file(folder / "out.exr");
+    EXPECT_EQ(file.info().parts[0].data_window, kMask);
+    ASSERT_EQ(file.info().parts[0].channels.size(), 2U) << "nothing was added there";
+    EXPECT_EQ(file.info().parts[0].find("m")->type, PixelType::half) << "as it was";
+    EXPECT_EQ(file.info().parts[0].find("AO")->type, PixelType::single);
+    EXPECT_EQ(read_plane(file, 0, "m", kMask)(19, 12), static_cast<float>(half(0.3F)));
+    EXPECT_EQ(read_plane(file, 0, "AO", kMask)(0, 0), 0.3F);
+    EXPECT_TRUE(file.info().parts[1].find("new"));
+    EXPECT_FALSE(file.info().parts[1].find("AO"));
+    EXPECT_EQ(tests::decode_all(folder / "a.0001.exr")[2], tests::decode_all(folder / "out.exr")[2]);
+  }
+  write(changed(0.3F), {.compression = {}, .data_window = {}, .only_new_channels = true});
+  const ExrReader alone(folder / "out.exr");
+  ASSERT_EQ(alone.info().parts[0].channels.size(), 1U) << "they are not new";
+  EXPECT_EQ(alone.info().parts[0].channels[0].name, "new");
+}
+
+TEST_F(FrameWindows, UnchangedPixelsOfANamedChannelKeepTheirBits) {
+  make(color_depth_mask());
+  SourceOptions input = options();
+  input.named_channels = {"m", "Z"};
+  Frame frame = *FileSource(input).load(1, "", {}, false);
+  for (const auto& [name, plane] : frame.named) frame.added[name] = copy_of(plane);
+  write(one(std::move(frame)));
+  EXPECT_EQ(tests::decode_all(folder / "a.0001.exr"), tests::decode_all(folder / "out.exr"));
+}
+
+TEST_F(FrameWindows, AChannelOfSeveralViewsIsWrittenOnce) {
+  auto parts = color_depth_mask();
+  parts[0].more = [](Imf::Header& header) { header.setView("left"); };
+  parts[2].more = [](Imf::Header& header) { header.setView("right"); };
+  make(parts);
+  SourceOptions input = options();
+  input.named_channels = {"A"};
+  std::vector<Frame> frames;
+  FileSource source(input);
+  for (const auto& [view, value] : {std::pair{"left", 0.25F}, {"right", 0.75F}}) {
+    frames.push_back(*source.load(1, view, {}, false));
+    frames.back().added["A"] = Plane(frames.back().window.width(), frames.back().window.height(), value);
+  }
+  write(frames);
+  EXPECT_EQ(read_plane(ExrReader(folder / "out.exr"), 1, "A", kColor)(0, 0), 0.25F) << "the first view's";
 }
 
 TEST_F(FrameWindows, ViewsThatShareAPartHaveTheirOwnAddedChannels) {

@@ -219,6 +219,36 @@ TEST(Colors, LayersAndCryptomattes) {
   }
 }
 
+TEST(FindChannel, ByNameInTheViewOrInTheFile) {
+  const auto in_stereo = [](const char* view, const char* name) { return find_channel(stereo(), view, name).channel; };
+  EXPECT_EQ(in_stereo("left", "whitebarmask.mask"), "whitebarmask.left.mask");
+  EXPECT_EQ(in_stereo("left", "whitebarmask.left.mask"), "whitebarmask.left.mask");
+  EXPECT_EQ(in_stereo("right", "disparityL.x"), "disparityL.x");
+  const FileInfo parts = file({part({"R", "G", "B"}, "rgba"), part({"V"}, "shadow"), part({"V"}, "light")});
+  EXPECT_EQ(find_channel(parts, "", "V"), (ChannelRef{1, "V"}));
+  EXPECT_EQ(find_channel(parts, "", "light.V"), (ChannelRef{2, "V"}));
+}
+
+TEST(FindChannel, SaysWhatThereIsAndRefusesCryptomattes) {
+  const FileInfo info =
+      file({part({"R", "shadow.R", "shadow.G", "matte00.r", "uCryptoAsset01.r"}), part({"r"}, "matte01")});
+  const auto message = [&](const char* name, ErrorCode code) {
+    try {
+      find_channel(info, "", name, {"matte"});
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), code) << name;
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(message("shadow.B", ErrorCode::no_input), "there is no channel \"shadow.B\" (did you mean \"shadow.R\"?)");
+  EXPECT_NE(message("shadow", ErrorCode::no_input).find("name one of its channels, shadow.R, shadow.G"),
+            std::string::npos);
+  EXPECT_NE(message("something", ErrorCode::no_input).find("the file has R, shadow.R"), std::string::npos);
+  for (const char* name : {"matte00.r", "uCryptoAsset01.r", "matte01.r", "r"})
+    EXPECT_NE(message(name, ErrorCode::usage).find("Cryptomatte"), std::string::npos) << name;
+}
+
 TEST(Colors, Override) {
   const FileInfo info = file({part({"R", "G", "B", "A", "lit.R", "lit.G", "lit.B"})});
   const auto colors = resolve_colors(info, "", load_profile("generic"), {{"color", "lit.R,lit.G,lit.B"}});
