@@ -1,5 +1,4 @@
 #pragma once
-#include <limits>
 #include <span>
 
 #include "core/filter/lane_geometry.h"
@@ -45,18 +44,22 @@ inline void pack_row(const PackRow& row) {
   }
 }
 
-/// The pixel at offset `first`, or the mean of those at `first` and `second` (a linear tap between them).
+/// What a linear tap between two pixels reads, for a row of them.
+inline void mean_row(const float* a, const float* b, int width, float* out) {
+  for (int x = 0; x < width; x += kLanes) store(out + x, (load(a + x) + load(b + x)) * 0.5F);
+}
+
+/// For pixel x of the row at work: the value and scaled depth at ao + x and depth + x.
 struct CrossTap {
-  int first, second;
+  const float *ao, *depth;
   float log2_weight;  ///< of the distance alone
   float distance;     ///< of the tap from the centre, pixels
 };
 
-/// One row of either pass: ao[reach + r] + x is the pixel r steps along the pass from pixel x of this row.
+/// One row of either pass.
 struct CrossBilateralRow {
-  std::span<const float*const> ao, depth;  ///< 2 * reach + 1 each
-  int reach;
-  std::span<const CrossTap> taps;  ///< of the side of positive offsets; the other mirrors it
+  const float *ao, *depth;                  ///< of the pixels themselves
+  std::span<const CrossTap> before, after;  ///< the two sides, the nearest first
   bool depth_slope;
   int width;
   float* out;
@@ -65,30 +68,22 @@ struct CrossBilateralRow {
 /// seed 000, CrossBilateralWeight: exp2(-r^2 falloff - dz^2) with pre-scaled depths. The mean is taken of differences
 /// from the centre (weight 1), so a constant stays the same to the bit.
 inline void cross_bilateral_row(const CrossBilateralRow& row) {
-  const float* const* ao = row.ao.data() + row.reach;
-  const float* const* depth = row.depth.data() + row.reach;
   for (int x = 0; x < row.width; x += kLanes) {
-    const Float base = load(ao[0] + x), z0 = load(depth[0] + x);
-    const Mask here = is_finite(z0);
+    const Float base = load(row.ao + x), z0 = load(row.depth + x);
     Float sum = 0.0F, weights = 1.0F;
-    for (int side = 1; side >= -1; side -= 2) {
+    for (const std::span<const CrossTap> side : {row.before, row.after}) {
       // HBAO+: depth is compared with z0 + r (z(1) - z0); algorithms 1.4.
-      const Float rise = row.depth_slope ? load(depth[side] + x) - z0 : Float(0.0F);
+      const Float rise = row.depth_slope ? load(side.front().depth + x) - z0 : Float(0.0F);
       const Float slope = select(is_finite(rise), rise, 0.0F);
-      for (const CrossTap& tap : row.taps) {
-        const int a = side * tap.first, b = side * tap.second;
-        Float value = load(ao[a] + x), z = load(depth[a] + x);
-        if (a != b) {
-          value = (value + load(ao[b] + x)) * 0.5F;
-          z = (z + load(depth[b] + x)) * 0.5F;
-        }
-        const Float dz = row.depth_slope ? z - (z0 + tap.distance * slope) : z - z0;
+      for (const CrossTap& tap : side) {
+        const Float straight = load(tap.depth + x) - z0;
+        const Float dz = row.depth_slope ? straight - tap.distance * slope : straight;
         const Float w = exp2(tap.log2_weight - dz * dz);
-        sum += w * (value - base);
+        sum += w * (load(tap.ao + x) - base);
         weights += w;
       }
     }
-    store(row.out + x, select(here, base + sum / weights, 1.0F));
+    store(row.out + x, select(is_finite(z0), base + sum / weights, 1.0F));
   }
 }
 
