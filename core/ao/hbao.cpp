@@ -33,8 +33,9 @@ const params::Table& HbaoParams::table() {
                "normals.")
           .add("normals", &P::normals, {"auto", "file", "depth"},
                "Where normals come from: the file if it has them and else the depth, the file only, or the depth only.")
-          .add("border", &P::border, {"renormalise", "open", "clamp"},
-               "Taps outside the image are made up for by those inside, do not occlude, or see the border's depth.")
+          .add("border", &P::border, {"clamp", "open", "renormalise"},
+               "Taps outside the image see the depth at the border, do not occlude, or are made up for by directions "
+               "that stay inside.")
           .add("literal", &P::literal,
                "Round the step instead of each tap, measure all but the first tap of a direction from one tangent, and "
                "count half of max_footprint in texels at any resolution, as the SDK's shader does; slopes occlude "

@@ -9,7 +9,7 @@
 namespace aftershade::ao {
 
 enum class Tangents { shorter_difference, normals };
-enum class HbaoBorder { renormalise, open, clamp };
+enum class HbaoBorder { clamp, open, renormalise };
 
 /// Horizon-based ambient occlusion (Bavoil, Sainz, Dimitrov 2008; ShaderX7 2009), in the form of NVIDIA's SDK 11 that
 /// seed 000 points at ("HBAO" slides; algorithms 1.1, 1.2). Around the view axis, in each of `directions`, taps raise a
@@ -38,7 +38,9 @@ struct HbaoParams {
   float max_footprint = 0.2F;
   Tangents tangents = Tangents::shorter_difference;
   NormalSource normals = NormalSource::automatic;
-  HbaoBorder border = HbaoBorder::renormalise;
+  /// What taps outside the image see: the border's depth, as in the SDK; nothing; or nothing, and directions count by
+  /// their taps' share inside. Clamping does best on every scene measured: whatever stands on the border goes on.
+  HbaoBorder border = HbaoBorder::clamp;
   bool literal = false;
   bool per_frame_noise = false;
   float refine_below = 0.5F;      ///< ours, as the two below: dual resolution only

@@ -157,7 +157,8 @@ inline void take_tap(const HbaoRow& row, const HbaoCentre& c, const Layout& taps
   coverage.inside += select(usable & inside, weight, 0.0F);
 }
 
-/// What one direction occludes, and how much it counts: by its taps' share inside the image (ours; the SDK clamps).
+/// What one direction occludes, and how much it counts: by its taps' share inside the image where
+/// the border is renormalised (ours).
 struct Slice {
   Float occlusion, weight;
 };

@@ -10,6 +10,7 @@
 namespace aftershade::tests {
 namespace {
 
+using ao::HbaoBorder;
 using ao::HbaoParams;
 using ao::Resolution;
 using ao::Tangents;
@@ -82,8 +83,9 @@ struct Twin {
         const double q = std::hypot(ox * static_cast<double>(lens.fy) / lens.fx, oy) / r_px;
         weights += std::max(0.0, 1 - q * q);
         if (inside(tx, ty)) weights_inside += std::max(0.0, 1 - q * q);
-        if (!is_surface(tx, ty)) return;
-        const Vec3 v = point(tx, ty) - here;
+        const int seen_x = std::clamp(tx, 0, p.depth.width() - 1), seen_y = std::clamp(ty, 0, p.depth.height() - 1);
+        if (!is_surface(seen_x, seen_y) || (params.border != HbaoBorder::clamp && !inside(tx, ty))) return;
+        const Vec3 v = lens.point(p.origin_x + tx + 0.5, p.origin_y + ty + 0.5, p.depth(seen_x, seen_y)) - here;
         const double tangent = -v.z / std::hypot(v.x, v.y);
         if (!(v.length() < R && tangent > tan_horizon)) return;
         found += (1 - v.dot(v) / (R * R)) * (sine(tangent) - sine(tan_horizon));
@@ -102,8 +104,10 @@ struct Twin {
           take(ox, oy, lifted_tangent(plane, x, y, ox, oy), false);
         }
       }
-      sum += found * weights_inside / weights;  // a direction counts by what is seen of it
-      all_weights += weights_inside / weights;
+      // A direction counts by what is seen of it.
+      const double weight = params.border == HbaoBorder::renormalise ? weights_inside / weights : 1;
+      sum += found * weight;
+      all_weights += weight;
     }
     if (all_weights == 0) return 1;
     return std::clamp(1 - static_cast<double>(params.strength) * sum / all_weights, 0.0, 1.0);
@@ -151,6 +155,7 @@ TEST(HbaoReference, AgreesWithTheTwin) {
           params.literal = literal;
           params.tangents = tangents;
           params.resolution = resolution;
+          params.border = orthographic ? HbaoBorder::renormalise : literal ? HbaoBorder::clamp : HbaoBorder::open;
           double dark = 0;
           const int off = texels_off(params, p, lens, dark);
           const int texels = resolution == Resolution::full ? 141 * 97 : 71 * 49;
