@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <string>
 
@@ -33,6 +34,18 @@ void require_planes(const WindowFrame& frame) {
   for (const Plane* plane : {&frame.nx, &frame.ny, &frame.nz}) check(*plane, !frame.nx.empty(), "normal");
   for (const VelocityPlanes* mv : {&frame.mv_prev, &frame.mv_next})
     for (const Plane* plane : {&mv->x, &mv->y}) check(*plane, !mv->x.empty(), "velocity");
+}
+
+/// Share of what was still seen in the frame before that one step loses at a cut (algorithms 13).
+constexpr double kCut = 0.6;
+
+/// Pixels with a finite value above 0: surfaces of a depth, matches of a weight.
+int64_t pixels_seen(const Plane& plane) {
+  int64_t seen = 0;
+  for (int y = 0; y < plane.height(); ++y)
+    seen +=
+        std::count_if(plane.row(y), plane.row(y) + plane.width(), [](float v) { return std::isfinite(v) && v > 0; });
+  return seen;
 }
 
 /// The centre and what follows it on one side, without gaps.
@@ -117,8 +130,12 @@ void Windowing::gather(const std::vector<const WindowFrame*>& chain, Side side, 
             own->at(static_cast<float>(centre_.window.min_x + x), static_cast<float>(centre_.window.min_y + y));
     });
   }
+  int64_t seen = pixels_seen(centre_.depth);
   for (size_t d = 1; d < chain.size(); ++d) {
     Match match = trajectories.next();
+    const int64_t now = pixels_seen(match.weight);
+    if (static_cast<double>(now) < (1 - kCut) * static_cast<double>(seen)) break;
+    seen = now;
     Neighbour neighbour{std::move(match.difference), std::move(match.weight), {}, {}};
     if (tests) {
       Plane here(width, height);

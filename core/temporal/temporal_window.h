@@ -45,9 +45,9 @@ struct WindowedAo {
 };
 
 /// The filtered AO of frames[centre]. `frames` are sorted by number; those further than params.frames, and those beyond
-/// a gap in the numbers, are not used, so a window at the end of a sequence is one-sided. Windows may differ in place
-/// and size: frames are aligned by absolute coordinates. AO that is not finite counts as 1 in the centre and for
-/// nothing elsewhere; background keeps its own.
+/// a gap in the numbers or a cut (a step in which more than 60 % of what was still seen is lost), are not used: at the
+/// end of a shot a window is one-sided. Windows may differ in place and size: frames are aligned by absolute
+/// coordinates. AO that is not finite counts as 1 in the centre and for nothing elsewhere; background keeps its own.
 WindowedAo temporal_window(const TemporalWindowParams& params, std::span<const WindowFrame* const> frames,
                            size_t centre);
 

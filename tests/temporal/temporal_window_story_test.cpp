@@ -33,6 +33,21 @@ TEST(WindowStory, APanOverAPatternLosesAtMostOneBilinearFetch) {
   EXPECT_GT(worst, fetch / 8) << "half of the frames are fetched between pixels";
 }
 
+TEST(WindowStory, NothingIsTakenFromBehindACut) {
+  // From frame 8 on another shot: it matches in one fifth of the picture, by chance.
+  std::vector<WindowFrame> frames;
+  for (int f = 0; f < 15; ++f) {
+    frames.push_back(window_frame(f, kWindow, camera_at({0, 0, 0})));
+    if (f < 8) continue;
+    frames.back().ao = Plane(kWidth, kHeight, 0.3F);
+    frames.back().depth = plane_of(kWidth, kHeight, [](int x, int) { return x % 5 == 0 ? 5.0F : 11.0F; });
+  }
+  TemporalWindowParams params;
+  params.change_test = ChangeTest::never;
+  for (const size_t f : {size_t{5}, size_t{7}, size_t{8}, size_t{9}})
+    EXPECT_EQ(different_pixels(windowed(params, frames, f).ao, frames[f].ao), 0) << f;
+}
+
 /// A card of 12x12 px at depth 4.5 before the floor at 5. The floor's AO falls to 0.4 around where the card is.
 struct Card {
   double left;
