@@ -68,7 +68,7 @@ class AccumulatingStage : public Stage {
  protected:
   /// Makes work.ao and the new history.
   virtual void refine(Work& work, const temporal::Reprojected& before) = 0;
-  virtual bool looks_like_a_cut(Work& work, const temporal::Reprojected& before) const {
+  bool looks_like_a_cut(Work& work, const temporal::Reprojected& before) const {
     return temporal::share_without_history(work.surface().depth, before, history_.depth, history_.window) > kCut;
   }
 
@@ -103,11 +103,6 @@ class AccumulativeSsao final : public AccumulatingStage<preset::AccumulativeSsao
     if (params_.literal_packing) temporal::pack_literally(history_, params_.packed_range_m);
     work.ao = copy_of(history_.ao);
     if (work.options.diagnostics) work.frame.added["aftershade.ao_raw"] = copy_of(ao);
-  }
-
-  /// Packed depth is too coarse for the rule of cuts.
-  bool looks_like_a_cut(Work& work, const temporal::Reprojected& before) const override {
-    return !params_.literal_packing && AccumulatingStage::looks_like_a_cut(work, before);
   }
 };
 
