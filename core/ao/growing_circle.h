@@ -24,7 +24,7 @@ struct GrowingCircleParams {
   float radius_m = 1.5F;
   float max_radius_screens = 0.5F;
   float bias = 0.05F;          ///< ours
-  float strength = 4.5F;       ///< ours: matches a uniform hemisphere integral in a corner near the edge
+  float strength = 6;          ///< ours: matches a uniform hemisphere integral in a corner at 0.2 R
   bool pixel_rotation = true;  ///< one of 16 rotations a pixel, in a 4x4 pattern
   bool per_frame_noise = false;
   NormalSource normals = NormalSource::automatic;

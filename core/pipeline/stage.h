@@ -25,12 +25,14 @@ class Stage {
 std::unique_ptr<Stage> make_stage(const ao::ScalableAoParams& params);
 std::unique_ptr<Stage> make_stage(const ao::HbaoParams& params);
 std::unique_ptr<Stage> make_stage(const ao::SphereKernelParams& params);
+std::unique_ptr<Stage> make_stage(const ao::GrowingCircleParams& params);
 std::unique_ptr<Stage> make_stage(const preset::AccumulativeSsaoParams& params);
 std::unique_ptr<Stage> make_stage(const preset::TemporalRefinementParams& params);
 std::unique_ptr<Stage> make_stage(const filter::BilateralBlurParams& params);
 std::unique_ptr<Stage> make_stage(const filter::BilateralUpsampleParams& params);
 std::unique_ptr<Stage> make_stage(const filter::CrossBilateralBlurParams& params);
 std::unique_ptr<Stage> make_stage(const temporal::SelectiveTemporalParams& params);
+std::unique_ptr<Stage> make_stage(const temporal::TemporalBlurParams& params);
 std::unique_ptr<Stage> make_stage(const ao::ApplyAoParams& params);
 std::unique_ptr<Stage> make_stage(const motionblur::ScalableBlurParams& params);
 

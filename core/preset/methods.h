@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "core/ao/apply_ao.h"
+#include "core/ao/growing_circle.h"
 #include "core/ao/hbao.h"
 #include "core/ao/scalable_ao.h"
 #include "core/ao/sphere_kernel.h"
@@ -13,16 +14,18 @@
 #include "core/preset/accumulative_ssao.h"
 #include "core/preset/temporal_refinement.h"
 #include "core/temporal/selective_temporal.h"
+#include "core/temporal/temporal_blur.h"
 
 namespace aftershade::preset {
 
 /// THE list of methods. A method is added by writing its files and putting its parameter struct here (and its stage in
 /// core/pipeline, which the compiler then asks for); JSON, --set, help, manual, schema and the property tests loop over
 /// it.
-using StageParams = std::variant<ao::ScalableAoParams, ao::HbaoParams, ao::SphereKernelParams, AccumulativeSsaoParams,
-                                 TemporalRefinementParams, filter::BilateralBlurParams, filter::BilateralUpsampleParams,
-                                 filter::CrossBilateralBlurParams, temporal::SelectiveTemporalParams, ao::ApplyAoParams,
-                                 motionblur::ScalableBlurParams>;
+using StageParams = std::variant<ao::ScalableAoParams, ao::HbaoParams, ao::SphereKernelParams, ao::GrowingCircleParams,
+                                 AccumulativeSsaoParams, TemporalRefinementParams, filter::BilateralBlurParams,
+                                 filter::BilateralUpsampleParams, filter::CrossBilateralBlurParams,
+                                 temporal::SelectiveTemporalParams, temporal::TemporalBlurParams,
+                                 ao::ApplyAoParams, motionblur::ScalableBlurParams>;
 
 /// Calls `visit(std::type_identity<Params>{})` for every method in the list's order.
 template <class Visit>

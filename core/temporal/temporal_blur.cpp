@@ -10,6 +10,9 @@ const params::Table& TemporalBlurParams::table() {
   using P = TemporalBlurParams;
   static const params::Table table =
       params::TableBuilder<P>()
+          .add("channel", &P::channel,
+               "Name of a channel of the file, without its view, that is filtered at full resolution and written back; "
+               "empty for the AO.")
           .add("cut_m", &P::cut_m, {1e-6, 1000},
                "Neighbours farther than this from a pixel's tangent plane are skipped by the blurs.")
           .add("cut_footprints", &P::cut_footprints, {0, 100},

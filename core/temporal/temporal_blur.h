@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <string>
 
 #include "core/filter/sample_grid.h"
 #include "core/filter/surface.h"
@@ -19,23 +20,25 @@ enum class BlurTaps { box, binomial };
 /// kernel of variance 2 s^2 + s^2 h / (1 - h) (algorithms 5.3). The article states the cut and the order; the formulas
 /// of the weights are algorithms 5.2's (ours):
 ///   w_geometry = 1 - smoothstep(near_m, far_m, distance in space to what was seen there)
-///   w_difference = (1 - sat(|x - x'| / max(|x|, |x'|, 0.1)))^2,  x = B(x_i), x' = out_{i-1}: moving objects leave no
-///   trail
+///   w_difference = (1 - sat(difference_scale |x - x'| / max(|x|, |x'|, 0.1)))^2,  x = B(x_i), x' = out_{i-1}: moving
+///   objects leave no trail
 /// Both distances are taken from the tangent plane, since on a slope the depth itself exceeds 2 cm from texel to texel
 /// (algorithms 5.4); `literal` compares depths, as the article's words have it.
+/// "Temporal Blur could be used to improve many other post effects": `channel` names a channel of the file instead.
 struct TemporalBlurParams {
   static constexpr std::string_view method = "temporal-blur";
   static constexpr std::string_view summary = "SOMA's temporal blur: blur, blend with the frame before, blur again";
   float cut_m = 0.02F;
   float cut_footprints = 1;             ///< ours; 0: the original
   BlurTaps weights = BlurTaps::box;     ///< ours: not stated by the seed
-  float history_weight = 0.95F;         ///< ours: box and 0.95 give the article's 64x64 (algorithms 14, item 11)
+  float history_weight = 0.9F;          ///< ours; box and 0.95 give the article's 64x64 (algorithms 14, item 11)
   float near_m = 0.05F, far_m = 0.07F;  ///< ours
-  float difference_scale = 1;           ///< ours; 0: only the distance counts, and moving objects trail
+  float difference_scale = 3;           ///< ours; 0: only the distance counts, and moving objects trail
   bool literal = false;
   bool warm_start = false;  ///< ours: new pixels look as smooth as those that have a history
   ReprojectionSource reprojection = ReprojectionSource::automatic;
   float agreement_px = 0.5F;
+  std::string channel{};  ///< of the file, without view; "": the AO
   static const params::Table& table();
   bool operator==(const TemporalBlurParams&) const = default;
 };

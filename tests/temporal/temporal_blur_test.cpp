@@ -394,12 +394,12 @@ TEST(TemporalBlurParams, TableCoversEveryMember) {
   params::read(TemporalBlurParams::table(), &params,
                params::Json::parse(R"({"cut_m": 0.5, "cut_footprints": 2, "weights": "binomial",
                  "history_weight": 0.5, "near_m": 1, "far_m": 2, "difference_scale": 3, "literal": true,
-                 "warm_start": true, "reprojection": "camera", "agreement_px": 0.25})"),
+                 "warm_start": true, "reprojection": "camera", "agreement_px": 0.25, "channel": "Shadow"})"),
                "test");
   const TemporalBlurParams want{
-      0.5F, 2, BlurTaps::binomial, 0.5F, 1, 2, 3, true, true, temporal::ReprojectionSource::camera, 0.25F};
+      0.5F, 2, BlurTaps::binomial, 0.5F, 1, 2, 3, true, true, temporal::ReprojectionSource::camera, 0.25F, "Shadow"};
   EXPECT_EQ(params, want);
-  EXPECT_EQ(TemporalBlurParams::table().size(), 11U);
+  EXPECT_EQ(TemporalBlurParams::table().size(), 12U);
 }
 
 }  // namespace
