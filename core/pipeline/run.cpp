@@ -17,10 +17,11 @@ class Run {
 
   size_t go() {
     const ViewPipeline& any = views_.front();  // all views have the same stages
-    for (const PlannedFrame& planned :
+    for (PlannedFrame planned :
          plan(options_.written, options_.on_disk, any.stages(), any.dependencies(), options_.preroll)) {
       if (options_.should_stop && options_.should_stop()) return done_;
-      if (planned.restarts || broken_) flush();
+      planned.restarts = planned.restarts || broken_;
+      if (planned.restarts) flush();
       attempt([&] { visit(planned); });
     }
     flush();
