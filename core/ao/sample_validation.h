@@ -25,9 +25,9 @@ enum class Validation { smooth, binary, off };
 /// radius, so that scale does not matter.
 struct ValidationParams {
   Validation validation = Validation::smooth;
-  float validation_sharpness = 20;  ///< S: 15 to 30 from memory of the paper, whose unit of length is unknown
-  float validation_limit = 0.05F;   ///< ours; binary: share of the radius
-  float validation_footprints = 1;  ///< ours: differences up to this many pixel widths at p's depth are rounding
+  float validation_sharpness = 100;  ///< S, ours: 15 to 30 from memory of the paper, whose unit of length is unknown
+  float validation_limit = 0.05F;    ///< ours; binary: share of the radius
+  float validation_footprints = 1;   ///< ours: differences up to this many pixel widths at p's depth are rounding
   bool operator==(const ValidationParams&) const = default;
 };
 

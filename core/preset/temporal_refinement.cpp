@@ -25,7 +25,8 @@ void add_blur(params::TableBuilder<P>& table) {
       .add("blur_radius_px", &P::blur_radius_px, {0, 64},
            "Reach of the blur to each side where nothing has converged, at the reference height; 0 switches it off.")
       .add("reference_height_px", &P::reference_height_px, {1, 65536},
-           "Image height at which blur_radius_px is meant; at other heights it scales with the height.")
+           "Image height at which blur_radius_px is meant; at other heights it scales with the height, though not "
+           "below 2.")
       .add("edge_distance_m", &P::edge_distance_m, {0, 1000},
            "Distance from a pixel's tangent plane at which another pixel's share in the blur has fallen to a half.")
       .add("edge_footprints", &P::edge_footprints, {0.1, 100},

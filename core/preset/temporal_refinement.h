@@ -22,7 +22,7 @@ struct TemporalRefinementParams : ao::SphereSamples, ao::ValidationParams {
   float epsilon = 0.1F;
   temporal::ReprojectionSource reprojection = temporal::ReprojectionSource::automatic;
   float agreement_px = 0.5F;
-  float blur_radius_px = 6;  ///< ours, and all of the blur's
+  float blur_radius_px = 8;  ///< ours, and all of the blur's
   float reference_height_px = 1080;
   float edge_distance_m = 0.05F, edge_footprints = 2;
   static const params::Table& table();
