@@ -18,6 +18,9 @@ const params::Table& ApplyAoParams::table() {
                "the ambient light only, or nothing.")
           .add("strength", &P::strength, {0, 4}, "How much of the AO is applied; 1 is all of it.")
           .add("minimum", &P::minimum, {0, 1}, "The darkest factor that the AO may come to.")
+          .add("baked", &P::baked, {"ignore", "multiply", "min"},
+               "How an ambient occlusion that the file already has (role ao) joins in: not at all, multiplied, or the "
+               "darker of the two.")
           .build();
   return records;
 }
@@ -48,6 +51,10 @@ void apply_ao(const ApplyAoParams& params, ConstPlaneView ao, Frame& frame) {
     throw Error(ErrorCode::data,
                 "frame " + std::to_string(frame.number) + " has no ambient channels to apply the AO to",
                 "name them with --channel ambient=..., or use target \"everything\"");
+  if (params.baked != BakedAo::ignore && !frame.has(Role::ao))
+    throw Error(ErrorCode::data, "frame " + std::to_string(frame.number) + " has no ambient occlusion of its own",
+                "name its channel with --channel ao=..., or use baked \"ignore\"");
+  const Plane* baked = params.baked == BakedAo::ignore ? nullptr : &frame.planes(Role::ao)[0];
   for (Layer& layer : frame.layers) {
     if (!layer.receives_ao) continue;
     for (size_t i = 0; i < layer.planes.size(); ++i) {
@@ -56,7 +63,8 @@ void apply_ao(const ApplyAoParams& params, ConstPlaneView ao, Frame& frame) {
       const Plane* ambient =
           target == ApplyTarget::ambient ? &frame.planes(Role::ambient).at(ambient_component(layer, i)) : nullptr;
       for_rows(colour.height(), [&](int y) {
-        apply_ao_row({ao.row(y), ambient ? ambient->row(y) : nullptr, params.strength, params.minimum, colour.width(),
+        apply_ao_row({ao.row(y), baked ? baked->row(y) : nullptr, params.baked == BakedAo::multiply,
+                      ambient ? ambient->row(y) : nullptr, params.strength, params.minimum, colour.width(),
                       colour.row(y)});
       });
     }

@@ -7,19 +7,27 @@ using namespace lanes;
 
 struct ApplyAoRow {
   const float* ao;
+  const float* baked;    ///< AO of the file; null: none
+  bool multiply;         ///< the two are multiplied, else the least counts
   const float* ambient;  ///< null: everything is darkened
   float strength, minimum;
   int width;
   float* colour;  ///< in and out
 };
 
-/// a = max(minimum, 1 - strength (1 - AO)); colour a, or colour - (1 - a) ambient. AO and ambient that are not finite
-/// count as open and as none; a colour that is not finite, or already negative, is not darkened by subtraction or made
-/// NaN.
+inline Float openness(Float ao) { return select(is_finite(ao), sat(ao), 1.0F); }
+
+/// a = max(minimum, 1 - strength (1 - AO)); colour a, or colour - (1 - a) ambient. AO (either) and ambient that are not
+/// finite count as open and as none; a colour that is not finite, or already negative, is not darkened by subtraction
+/// or made NaN.
 inline void apply_ao_row(const ApplyAoRow& row) {
   for (int x = 0; x < row.width; x += kLanes) {
     const Float ao = load(row.ao + x), colour = load(row.colour + x);
-    const Float open = select(is_finite(ao), sat(ao), 1.0F);
+    Float open = openness(ao);
+    if (row.baked) {
+      const Float baked = openness(load(row.baked + x));
+      open = row.multiply ? open * baked : min(open, baked);
+    }
     const Float a = max(1.0F - row.strength * (1.0F - open), row.minimum);
     Float darker = colour * a;
     if (row.ambient) {

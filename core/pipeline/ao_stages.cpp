@@ -65,6 +65,7 @@ class ApplyAo final : public Stage {
     Needs needs;
     if (params_.target == ao::ApplyTarget::ambient) needs.required = {Role::ambient};
     if (params_.target == ao::ApplyTarget::automatic) needs.optional = {Role::ambient};
+    if (params_.baked != ao::BakedAo::ignore) needs.required.insert(Role::ao);
     needs.ao = needs.ao_at_pixels = needs.layers = true;
     return needs;
   }

@@ -141,5 +141,37 @@ TEST(ApplyAo, AmbientWithoutAmbientNamesTheFrame) {
   }
 }
 
+TEST(ApplyAo, AnAoOfTheFileIsIgnoredMultipliedOrTheLeastCounts) {
+  const std::array<float, kWidth> ours{0.5F, 0.5F, 0.75F, 1.0F, kNan}, theirs{0.25F, 0.5F, 1.0F, kNan, 0.5F};
+  const std::array<float, kWidth> product{0.125F, 0.25F, 0.75F, 1.0F, 0.5F}, least{0.25F, 0.5F, 0.75F, 1.0F, 0.5F},
+      alone{0.5F, 0.5F, 0.75F, 1.0F, 1.0F};
+  for (const auto& [baked, expected] :
+       {std::pair(ao::BakedAo::ignore, alone), {ao::BakedAo::multiply, product}, {ao::BakedAo::least, least}}) {
+    Frame frame = frame_of(false);
+    frame.planes(Role::ao).push_back(ao_plane(theirs));
+    for (Plane& plane : frame.layers[0].planes)
+      for (int x = 0; x < kWidth; ++x) plane(x, 0) = 2;
+    ApplyAoParams params;
+    params.baked = baked;
+    ao::apply_ao(params, ao_plane(ours), frame);
+    for (int x = 0; x < kWidth; ++x)
+      EXPECT_EQ(frame.layers[0].planes[1](x, 0), 2 * expected[static_cast<size_t>(x)]) << x;
+    EXPECT_EQ(frame.planes(Role::ao)[0](0, 0), 0.25F) << "the file's own stays what it is";
+  }
+}
+
+TEST(ApplyAo, AnAoThatTheFileLacksNamesTheFrame) {
+  Frame frame = frame_of(false);
+  ApplyAoParams params;
+  params.baked = ao::BakedAo::least;
+  try {
+    ao::apply_ao(params, ao_plane({0, 0, 0, 0, 0}), frame);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::data);
+    EXPECT_NE(std::string(error.what()).find("frame 7"), std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace aftershade::tests
