@@ -38,40 +38,40 @@ inline Float floor_of_position(Float x) {
 /// 4). No history is z = 0 (borderZ), which is never the same.
 inline Mask same_surface(Float expected, Float z, float epsilon) { return abs(z - expected) < epsilon * z; }
 
-/// The texel left and above of a position, in the planes' index, and its fractions, which do not depend on the window.
-struct FirstTap {
-  Float left, top, share_x, share_y;
+/// The two pixels along one axis between which a position lies: their indices, clamped to the planes, and their
+/// bilinear shares, which do not depend on the planes' place.
+struct TapPair {
+  Int index[2];
+  Float share[2];
+  Mask inside[2];
 };
-inline FirstTap first_tap(const HistoryView& h, Float x, Float y) {
-  const Float u = x - 0.5F, v = y - 0.5F, u0 = floor_of_position(u), v0 = floor_of_position(v);
-  return {clamp(u0 - static_cast<float>(h.min_x), -2.0F, static_cast<float>(h.depth.width)),  // NaN becomes -2: outside
-          clamp(v0 - static_cast<float>(h.min_y), -2.0F, static_cast<float>(h.depth.height)), u - u0, v - v0};
-}
-
-inline Mask inside(const HistoryView& h, Float x, Float y) {
-  return (x >= 0.0F) & (x < static_cast<float>(h.depth.width)) & (y >= 0.0F) & (y < static_cast<float>(h.depth.height));
-}
-inline Int index_of(const HistoryView& h, Float x, Float y) {
-  return to_int(clamp(y, 0.0F, static_cast<float>(h.depth.height - 1))) * Int(static_cast<int32_t>(h.depth.stride)) +
-         to_int(clamp(x, 0.0F, static_cast<float>(h.depth.width - 1)));
+inline TapPair tap_pair(Float position, int first, int size) {
+  const Float u = position - 0.5F, left = floor_of_position(u), share = u - left;
+  const auto last = static_cast<float>(size - 1);
+  const Float at = clamp(left - static_cast<float>(first), -2.0F, last + 1.0F);  // NaN becomes -2: outside
+  return {{to_int(clamp(at, 0.0F, last)), to_int(clamp(at + 1.0F, 0.0F, last))},
+          {1.0F - share, share},
+          {(at >= 0.0F) & (at <= last), (at >= -1.0F) & (at < last)}};
 }
 
 /// Four bilinear taps, each validated on its own, weights renormalised; unknown when the valid taps weigh less than a
 /// quarter (algorithms 7.3). N is averaged like AO: it is the weight that the fetched mean deserves.
 inline FetchedHistory fetch_history(const HistoryView& h, Float x, Float y, Float expected, float epsilon) {
-  const FirstTap first = first_tap(h, x, y);
+  const TapPair columns = tap_pair(x, h.min_x, h.depth.width), rows = tap_pair(y, h.min_y, h.depth.height);
+  const Float column_share[] = {select(columns.inside[0], columns.share[0], 0.0F),
+                                select(columns.inside[1], columns.share[1], 0.0F)};
   Float sum = 0.0F, ao = 0.0F, count = 0.0F;
-  for (int tap = 0; tap < 4; ++tap) {
-    const bool right = (tap & 1) != 0, below = (tap & 2) != 0;
-    const Float tu = first.left + (right ? 1.0F : 0.0F), tv = first.top + (below ? 1.0F : 0.0F);
-    const Int index = index_of(h, tu, tv);
-    const Float weight =
-        (right ? first.share_x : 1.0F - first.share_x) * (below ? first.share_y : 1.0F - first.share_y);
-    const Mask same = same_surface(expected, gather(h.depth.data, index), epsilon);
-    const Float valid = select(inside(h, tu, tv) & same, weight, 0.0F);
-    sum += valid;
-    ao += valid * gather(h.ao.data, index);
-    count += valid * gather(h.count.data, index);
+  for (int j = 0; j < 2; ++j) {
+    const Float row_share = select(rows.inside[j], rows.share[j], 0.0F);
+    const Int row = rows.index[j] * Int(static_cast<int32_t>(h.depth.stride));
+    for (int i = 0; i < 2; ++i) {
+      const Int index = row + columns.index[i];
+      const Mask same = same_surface(expected, gather(h.depth.data, index), epsilon);
+      const Float valid = select(same, column_share[i] * row_share, 0.0F);
+      sum += valid;
+      ao += valid * gather(h.ao.data, index);
+      count += valid * gather(h.count.data, index);
+    }
   }
   return {ao / sum, count / sum, sum >= 0.25F};
 }
@@ -79,20 +79,17 @@ inline FetchedHistory fetch_history(const HistoryView& h, Float x, Float y, Floa
 /// The listing as printed: z_{i-1} (and N, of which it says nothing) of the nearest pixel, 0 outside; AO bilinear, of
 /// whatever surface its four taps show.
 inline FetchedHistory fetch_literally(const HistoryView& h, Float x, Float y, Float expected, float epsilon) {
-  const Float px = floor_of_position(x) - static_cast<float>(h.min_x);
-  const Float py = floor_of_position(y) - static_cast<float>(h.min_y);
-  const Int nearest = index_of(h, px, py);
-  const FirstTap first = first_tap(h, x, y);
-  const auto ao_at = [&](float right, float below) {
-    return gather(h.ao.data, index_of(h, first.left + right, first.top + below));
-  };
-  const auto across = [&](float below) {
-    const Float left = ao_at(0, below);
-    return left + first.share_x * (ao_at(1, below) - left);
-  };
-  const Float above = across(0);
+  const Int stride = static_cast<int32_t>(h.depth.stride);
+  const TapPair at_x = tap_pair(x + 0.5F, h.min_x, h.depth.width), at_y = tap_pair(y + 0.5F, h.min_y, h.depth.height);
+  const Int nearest = at_y.index[0] * stride + at_x.index[0];
+  const TapPair columns = tap_pair(x, h.min_x, h.depth.width), rows = tap_pair(y, h.min_y, h.depth.height);
+  Float ao = 0.0F;
+  for (int tap = 0; tap < 4; ++tap) {
+    const int i = tap & 1, j = tap >> 1;
+    ao += columns.share[i] * rows.share[j] * gather(h.ao.data, rows.index[j] * stride + columns.index[i]);
+  }
   const Mask same = same_surface(expected, gather(h.depth.data, nearest), epsilon);
-  return {above + first.share_y * (across(1) - above), gather(h.count.data, nearest), inside(h, px, py) & same};
+  return {ao, gather(h.count.data, nearest), at_x.inside[0] & at_y.inside[0] & same};
 }
 
 inline Mask is_stable(const TemporalRow& row, int x) {
