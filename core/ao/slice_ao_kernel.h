@@ -1,0 +1,180 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "core/ao/depth_view.h"
+
+/// Slices with exact interval visibility. Plain scalar code: lists of intervals resist lanes.
+namespace aftershade::ao::slice {
+
+/// acos(x) for x in [-1, 1]; absolute error below 5e-7 (Abramowitz and Stegun 4.4.46, in float).
+inline float arc_cosine(float x) {
+  const float a = std::fabs(x);
+  float p = -0.0012624911F;
+  p = p * a + 0.0066700901F;
+  p = p * a - 0.0170881256F;
+  p = p * a + 0.0308918810F;
+  p = p * a - 0.0501743046F;
+  p = p * a + 0.0889789874F;
+  p = p * a - 0.2145988016F;
+  p = p * a + 1.5707963050F;
+  const float r = p * std::sqrt(std::max(1 - a, 0.0F));
+  return x < 0 ? 3.14159265F - r : r;
+}
+
+/// Elevations are kept as u = -cos(theta), which grows with the angle theta from the view vector (0: -1, pi: 1).
+struct Interval {
+  float from, to;
+};
+
+/// Adds [from, to] to a sorted list of disjoint intervals.
+inline void unite(std::vector<Interval>& list, Interval added) {
+  size_t first = list.size();
+  while (first > 0 && list[first - 1].to >= added.from) --first;
+  size_t last = first;
+  for (; last < list.size() && list[last].from <= added.to; ++last) {
+    added.from = std::min(added.from, list[last].from);
+    added.to = std::max(added.to, list[last].to);
+  }
+  const auto at = list.begin() + static_cast<std::ptrdiff_t>(first);
+  if (first == last) {
+    list.insert(at, added);
+  } else {
+    *at = added;
+    list.erase(at + 1, list.begin() + static_cast<std::ptrdiff_t>(last));
+  }
+}
+
+/// One side of a slice: gamma is the angle of the projected normal, positive towards this side, at most a right angle.
+struct Arc {
+  float sin_gamma, cos_gamma;
+  /// Int_0^theta cos(t - gamma) sin t dt = (cos g + 2 theta sin g - cos(2 theta - g)) / 4   (algorithms 9.1)
+  float operator()(float u) const {
+    const float c = -u, s = std::sqrt(std::max(1 - u * u, 0.0F));
+    const float double_angle = (c * c - s * s) * cos_gamma + 2 * s * c * sin_gamma;
+    return 0.25F * (cos_gamma + 2 * arc_cosine(c) * sin_gamma - double_angle);
+  }
+  float horizon() const { return sin_gamma; }  ///< u of gamma + pi/2
+  float whole() const { return (*this)(horizon()); }
+  float hidden(std::span<const Interval> list) const {
+    float sum = 0;
+    for (const Interval& i : list) sum += (*this)(i.to) - (*this)(i.from);
+    return sum;
+  }
+};
+
+struct Direction {
+  float cos, sin;
+};
+
+struct Slices {
+  DepthView view;
+  float radius_m;
+  int steps, count;                       ///< samples a side (0: every pixel), slices
+  std::span<const Direction> directions;  ///< 16 rotations of `count` directions
+  std::span<const float> offsets;         ///< 16 shifts of the sample positions, in [0, 1)
+};
+
+/// A side of one slice: the unit vector across the view vector, that across the slice, and how a point slides into it.
+struct Side {
+  Vec across, beside;
+  float slide_across, slide_view;
+  Arc arc;
+};
+
+/// A sample beside the slice is slid into it along the receiver's tangent plane, by the shortest way (ours): a surface
+/// parallel to the receiver's keeps its height, so a plane never occludes itself.
+inline Side make_side(Vec across, Vec beside, const Receiver& at) {
+  const float nd = dot(at.normal, across), nv = dot(at.normal, at.view), ne = dot(at.normal, beside);
+  const float squared = nd * nd + nv * nv, length = std::sqrt(squared);
+  return {across, beside, ne * nd / squared, ne * nv / squared, {nd / length, nv / length}};
+}
+
+/// u of the point `a` across and `b` towards the camera.
+inline float elevation(float a, float b) { return -b / std::sqrt(a * a + b * b); }
+
+/// What the solid hides of the arc: from its front to its back, inside the sphere. Nothing: from >= to.
+inline Interval hidden_by(const Side& side, const Receiver& at, const Solid& solid, float radius_m) {
+  constexpr Interval kNothing{1, -1};
+  const Vec d = solid.front - at.point;
+  const float height = dot(d, at.normal);
+  if (height <= 0 && height + solid.length * dot(solid.ray, at.normal) <= 0) return kNothing;
+  const float c = dot(d, side.beside);
+  const float a = dot(d, side.across) + c * side.slide_across, b = dot(d, at.view) + c * side.slide_view;
+  const float ra = dot(solid.ray, side.across), rb = dot(solid.ray, at.view), rr = ra * ra + rb * rb;
+  const float half = (a * ra + b * rb) / rr, outside = (a * a + b * b - radius_m * radius_m) / rr;
+  const float discriminant = half * half - outside;
+  if (!(discriminant > 0)) return kNothing;
+  const float root = std::sqrt(discriminant);
+  const float first = std::max(-half - root, 0.0F), last = std::min(root - half, solid.length);
+  const float a0 = a + first * ra, a1 = a + last * ra;
+  if (!(first < last) || !(a0 > 0) || !(a1 > 0)) return kNothing;
+  return {elevation(a0, b + first * rb), std::min(elevation(a1, b + last * rb), side.arc.horizon())};
+}
+
+/// From the receiver to where this side leaves the projected sphere of the radius, in pixels.
+struct Screen {
+  float x, y;
+};
+/// The tangent to the sphere leaves the eye at asin(R / |P|) from the receiver's ray, also off axis; a sphere around
+/// the camera, or one that reaches beside it, has no end in the image.
+inline Screen reach(const Slices& all, const Receiver& at, Vec across) {
+  const Projection& lens = all.view.lens;
+  if (lens.orthographic) return {across.x * all.radius_m * lens.fx, -across.y * all.radius_m * lens.fy};
+  const Vec p = at.point * (1 / at.point.z);
+  const float sine = all.radius_m / std::sqrt(dot(at.point, at.point));
+  if (sine < 1) {
+    const Vec edge = across * sine - at.view * std::sqrt(1 - sine * sine);
+    if (edge.z > 0) return {(edge.x / edge.z - p.x) * lens.fx, -(edge.y / edge.z - p.y) * lens.fy};
+  }
+  constexpr float kBeyond = 1e6F;
+  const float x = (across.x - p.x * across.z) * lens.fx, y = -(across.y - p.y * across.z) * lens.fy;
+  const float scale = kBeyond / std::max(std::fabs(x), std::fabs(y));
+  return {x * scale, y * scale};
+}
+
+/// Samples from the receiver outwards, i + (r - steps) ((i - offset) / steps)^2 pixels away: every pixel near, wider
+/// apart far away (XeGTAO distributes by the square too, algorithms 9.2).
+inline float hidden_on_side(const Slices& all, const Receiver& at, const Side& side, float offset,
+                            std::vector<Interval>& list) {
+  list.clear();
+  const Screen end = reach(all, at, side.across);
+  const float longest = std::max(std::fabs(end.x), std::fabs(end.y)), dx = end.x / longest, dy = end.y / longest;
+  const auto image = static_cast<float>(std::max(all.view.depth.width, all.view.depth.height));
+  const int last = static_cast<int>(std::min(longest, image) + 0.5F);
+  const int count = all.steps > 0 ? std::min(all.steps, last) : last;
+  if (count == 0) return 0;
+  const auto n = static_cast<float>(count);
+  const float growth = (static_cast<float>(last) - n) / (n * n);
+  for (int i = 1; i <= count; ++i) {
+    const float k = static_cast<float>(i), r = k + std::floor(growth * (k - offset) * (k - offset));
+    const int x = at.x + static_cast<int>(std::floor(dx * r + 0.5F));
+    const int y = at.y + static_cast<int>(std::floor(dy * r + 0.5F));
+    all.view.for_solids(x, y, [&](const Solid& solid) {
+      const Interval hidden = hidden_by(side, at, solid, all.radius_m);
+      if (hidden.from < hidden.to) unite(list, hidden);
+    });
+  }
+  return side.arc.hidden(list);
+}
+
+/// 1 - sum |N'| hidden / sum |N'| whole over the slices (algorithms 9.1 and 9.3; GTAO has the mean of |N'| whole, which
+/// is 1 only for many slices).
+inline float visibility(const Slices& all, const Receiver& at, int cell, std::vector<Interval>& list) {
+  const Basis basis = basis_across(at.view);
+  float hidden = 0, whole = 0;
+  for (int k = 0; k < all.count; ++k) {
+    const Direction turn = all.directions[static_cast<size_t>(cell * all.count + k)];
+    const Vec across = basis.s * turn.cos + basis.t * turn.sin, beside = cross(across, at.view);
+    const float nd = dot(at.normal, across), nv = dot(at.normal, at.view), weight = std::sqrt(nd * nd + nv * nv);
+    if (!(weight > 1e-4F)) continue;  // the slice's plane is the tangent plane
+    for (const float sign : {1.0F, -1.0F}) {
+      const Side side = make_side(across * sign, beside * sign, at);
+      hidden += weight * hidden_on_side(all, at, side, all.offsets[static_cast<size_t>(cell)], list);
+      whole += weight * side.arc.whole();
+    }
+  }
+  return whole > 0 ? std::clamp(1 - hidden / whole, 0.0F, 1.0F) : 1.0F;
+}
+
+}  // namespace aftershade::ao::slice
