@@ -90,6 +90,7 @@ class Windowing {
   const TemporalWindowParams& params_;
   const WindowFrame& centre_;
   std::vector<Neighbour> before_, after_;
+  Plane still_;  ///< of the centre's surfaces, in the step to the frame before it or else after it
   std::vector<NearMoving> near_;
   int first_number_ = 0;
   bool testing_ = false;
@@ -136,6 +137,7 @@ void Windowing::gather(const std::vector<const WindowFrame*>& chain, Side side, 
     const int64_t now = pixels_seen(match.weight);
     if (static_cast<double>(now) < (1 - kCut) * static_cast<double>(seen)) break;
     seen = now;
+    if (still_.empty()) still_ = std::move(match.still);
     Neighbour neighbour{std::move(match.difference), std::move(match.weight), {}, {}};
     if (tests) {
       Plane here(width, height);
@@ -154,15 +156,15 @@ Plane Windowing::neighbourhood_mean(const Neighbour& neighbour) const {
   for_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) value(x, y) = neighbour.difference(x, y) * neighbour.weight(x, y);
   });
-  const filter::Samples depth(centre_.depth);
+  const filter::Samples depth(centre_.depth), still(still_);
   for_rows(height, [&](int y) {
-    neighbourhood_row(
-        {depth, filter::Samples(value), filter::Samples(neighbour.weight), step, 0, along.row(y), along_weight.row(y)},
-        y);
+    neighbourhood_row({depth, still, filter::Samples(value), filter::Samples(neighbour.weight), step, 0, along.row(y),
+                       along_weight.row(y)},
+                      y);
   });
   for_rows(height, [&](int y) {
     neighbourhood_row(
-        {depth, filter::Samples(along), filter::Samples(along_weight), 0, step, value.row(y), weight.row(y)}, y);
+        {depth, still, filter::Samples(along), filter::Samples(along_weight), 0, step, value.row(y), weight.row(y)}, y);
     for (int x = 0; x < width; ++x) value(x, y) = weight(x, y) > 0 ? value(x, y) / weight(x, y) : 0.0F;
   });
   return value;

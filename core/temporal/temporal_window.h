@@ -17,8 +17,9 @@ enum class ChangeTest { near_moving, everywhere, never };
 /// v_j: share of the bilinear taps in frame j that see the surface (trajectory.h); 0 where it is hidden or outside.
 /// r_j: 1, but near moving surfaces the share of trust that the neighbourhood's occluders were where they are in f.
 /// Real changes of AO are wide in space and slow or sudden in time, the flicker of undersampling has zero mean:
-/// S_j, the mean of D_j over the neighbourhood, is compared with that of frames f-1 to f+1 and with the noise sigma
-/// that S has along the trajectory (median of third differences: neither a bend nor a sudden change raises it):
+/// S_j, the mean of D_j over the neighbourhood (of surfaces that move as well, or stand as well), is compared with that
+/// of frames f-1 to f+1 and with the noise sigma that S has along the trajectory (median of third differences: neither
+/// a bend nor a sudden change raises it):
 ///   r = 1 / (1 + t^2),  t = (S_j - S_ref)^2 / ((significance sigma)^2 + change^2)
 /// Two frames at equal distances are also judged by their mean, so that an AO that changes evenly keeps both.
 struct TemporalWindowParams {

@@ -12,7 +12,7 @@ using namespace lanes;
 /// One direction of the mean over the neighbourhood: 9 taps, Gaussian, that end at other depths.
 struct NeighbourhoodRow {
   static constexpr int kReach = 4;
-  filter::Samples depth;
+  filter::Samples depth, still;   ///< still: surfaces that move are not averaged with those that do not
   filter::Samples value, weight;  ///< value is already multiplied by weight
   int dx, dy;                     ///< from tap to tap
   float *out_value, *out_weight;
@@ -23,13 +23,14 @@ inline void neighbourhood_row(const NeighbourhoodRow& row, int y) {
   constexpr float kFalloff = 1 / (2 * 2.5F * 2.5F);  // sigma = (reach + 1) / 2, with exp2: as in the blurs
   for (int x0 = 0; x0 < row.depth.width; x0 += kLanes) {
     const Int x = row.depth.clamp_x(iota(x0)), iy = y;
-    const Float own = row.depth(x, iy);
+    const Float own = row.depth(x, iy), own_still = row.still(x, iy);
     Float value = 0.0F, weight = 0.0F;
     for (int t = -NeighbourhoodRow::kReach; t <= NeighbourhoodRow::kReach; ++t) {
       const Int tx = x + Int(t * row.dx), ty = iy + Int(t * row.dy);
       const Int sx = row.depth.clamp_x(tx), sy = row.depth.clamp_y(ty);
       const Float z = row.depth(sx, sy), d = (z / own - 1.0F) * (1 / kRelative);
-      const Mask valid = row.depth.contains(tx, ty) & filter::is_surface(z) & filter::is_surface(own);
+      const Mask valid = row.depth.contains(tx, ty) & filter::is_surface(z) & filter::is_surface(own) &
+                         (row.still(sx, sy) == own_still);
       const Float g = select(valid, exp2(-(static_cast<float>(t * t) * kFalloff + d * d)), 0.0F);
       value += select(g > 0.0F, g * row.value(sx, sy), 0.0F);
       weight += select(g > 0.0F, g * row.weight(sx, sy), 0.0F);

@@ -157,11 +157,12 @@ Match Trajectories::next() {
   if (left() == 0) throw Error(ErrorCode::internal, "trajectories: there is no further frame");
   const int width = x_.width(), height = x_.height();
   const auto blank = [&] { return Plane(width, height); };
-  Match to{blank(), blank(), blank(), blank(), blank()};
+  Match to{blank(), blank(), blank(), blank(), blank(), blank()};
   Plane step_x(width, height), step_y(width, height);
   advance(to, step_x, step_y);
   ++reached_;
   match(to, step_x, step_y);
+  copy_at(still_, to.still, 0, 0);
   copy_at(to.x, x_, 0, 0);
   copy_at(to.y, y_, 0, 0);
   return to;

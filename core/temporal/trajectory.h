@@ -36,6 +36,7 @@ struct Match {
   Plane x, y;        ///< absolute pixel position; NaN: lost, or background
   Plane depth;       ///< planar, expected there, metres
   Plane difference;  ///< mean AO of the pixels there that show the surface, minus the centre's AO; 0: none does
+  Plane still;       ///< 1: the camera explains all of the way there, 0: the surface moves by itself
   Plane weight;      ///< their bilinear weight, 0.25 to 1; 0: it is not seen there
 };
 

@@ -138,6 +138,12 @@ class Twin {
     return out;
   }
 
+  /// Does the camera explain the step to the frame before?
+  bool stands_still(int i, int j) const {
+    const Place origin = start(i, j, true);
+    return moved(origin, origin, 0, -1)->still;
+  }
+
   /// S of frame d: along x at every row, then along y, each weighed by the relative depth of its own centre.
   double mean_change(int i, int j, int d) const {
     if (d == 0) return 0;
@@ -146,7 +152,7 @@ class Twin {
       const Window& w = frame(0).window;
       if (to_x < 0 || to_x >= w.width() || to_y < 0 || to_y >= w.height()) return 0.0;
       const double z = frame(0).depth(x, y), other = frame(0).depth(to_x, to_y);
-      if (!is_surface(z) || !is_surface(other)) return 0.0;
+      if (!is_surface(z) || !is_surface(other) || stands_still(x, y) != stands_still(to_x, to_y)) return 0.0;
       return std::exp2(-(t * t / (2 * 2.5 * 2.5) + std::pow((other / z - 1) / 0.1, 2)));
     };
     double sum = 0, weights = 0;
