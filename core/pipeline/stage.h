@@ -33,6 +33,7 @@ std::unique_ptr<Stage> make_stage(const filter::BilateralUpsampleParams& params)
 std::unique_ptr<Stage> make_stage(const filter::CrossBilateralBlurParams& params);
 std::unique_ptr<Stage> make_stage(const temporal::SelectiveTemporalParams& params);
 std::unique_ptr<Stage> make_stage(const temporal::TemporalBlurParams& params);
+std::unique_ptr<Stage> make_stage(const temporal::TemporalWindowParams& params);
 std::unique_ptr<Stage> make_stage(const ao::ApplyAoParams& params);
 std::unique_ptr<Stage> make_stage(const motionblur::ScalableBlurParams& params);
 

@@ -15,6 +15,7 @@
 #include "core/preset/temporal_refinement.h"
 #include "core/temporal/selective_temporal.h"
 #include "core/temporal/temporal_blur.h"
+#include "core/temporal/temporal_window.h"
 
 namespace aftershade::preset {
 
@@ -25,7 +26,7 @@ using StageParams = std::variant<ao::ScalableAoParams, ao::HbaoParams, ao::Spher
                                  AccumulativeSsaoParams, TemporalRefinementParams, filter::BilateralBlurParams,
                                  filter::BilateralUpsampleParams, filter::CrossBilateralBlurParams,
                                  temporal::SelectiveTemporalParams, temporal::TemporalBlurParams,
-                                 ao::ApplyAoParams, motionblur::ScalableBlurParams>;
+                                 temporal::TemporalWindowParams, ao::ApplyAoParams, motionblur::ScalableBlurParams>;
 
 /// Calls `visit(std::type_identity<Params>{})` for every method in the list's order.
 template <class Visit>
