@@ -35,7 +35,7 @@ struct TemporalWindowParams {
   float occluder_radius_m = 1;  ///< how far occlusion reaches: the radius of the AO
   float neighbourhood_px = 8;   ///< half width of the square in which changes are averaged
   float change = 0.0003F;       ///< change of the neighbourhood's AO that is real
-  float significance = 2;       ///< in standard deviations of its own flicker
+  float significance = 1;       ///< in standard deviations of its own flicker
   static const params::Table& table();
   bool operator==(const TemporalWindowParams&) const = default;
 };
