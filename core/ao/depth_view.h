@@ -41,6 +41,13 @@ struct Receiver {
   Vec point, view, normal;
 };
 
+/// Is all of the solid's centre line below the receiver's tangent plane? Then it hides nothing; the facets around it
+/// that the line stands for must not hide either, or convex surfaces would hide themselves.
+inline bool below_horizon(const Receiver& at, const Solid& solid) {
+  const float height = dot(solid.front - at.point, at.normal);
+  return height <= 0 && height + solid.length * dot(solid.ray, at.normal) <= 0;
+}
+
 struct DepthView {
   ConstPlaneView depth, thickness;
   ConstPlaneView depth2, thickness2;  ///< the second layer; may be empty
@@ -77,17 +84,19 @@ struct DepthView {
     visit(first);
   }
 
-  /// The pixel as a receiver. A normal that faces away is turned to the camera as little as needed; without one the
-  /// surface is taken to face the camera.
-  Receiver receiver(int x, int y) const {
-    Receiver at{x, y, unproject(x, y, depth(x, y)), {0, 0, -1}, {}};
-    if (!lens.orthographic) at.view = unit(at.point) * -1;
+  /// Unit normal of a pixel's surface seen along `ray`. One that faces away is turned to the camera as little as
+  /// needed; without one the surface is taken to face the camera.
+  Vec normal(int x, int y, Vec ray) const {
     Vec n{nx(x, y), ny(x, y), nz(x, y)};
-    const float facing = dot(n, at.view);
-    if (facing < 0) n = n - at.view * facing;
+    const float away = dot(n, ray);
+    if (away > 0) n = n - ray * away;
     const float squared = dot(n, n);
-    at.normal = squared > 0.01F && squared < 100 ? unit(n) : at.view;
-    return at;
+    return squared > 0.01F && squared < 100 ? unit(n) : ray * -1;
+  }
+
+  Receiver receiver(int x, int y) const {
+    const Vec point = unproject(x, y, depth(x, y)), along = ray(point);
+    return {x, y, point, along * -1, normal(x, y, along)};
   }
 
  private:

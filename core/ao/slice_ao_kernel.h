@@ -97,8 +97,7 @@ inline float elevation(float a, float b) { return -b / std::sqrt(a * a + b * b);
 inline Interval hidden_by(const Side& side, const Receiver& at, const Solid& solid, float radius_m) {
   constexpr Interval kNothing{1, -1};
   const Vec d = solid.front - at.point;
-  const float height = dot(d, at.normal);
-  if (height <= 0 && height + solid.length * dot(solid.ray, at.normal) <= 0) return kNothing;
+  if (below_horizon(at, solid)) return kNothing;
   const float c = dot(d, side.beside);
   const float a = dot(d, side.across) + c * side.slide_across, b = dot(d, at.view) + c * side.slide_view;
   const float ra = dot(solid.ray, side.across), rb = dot(solid.ray, at.view), rr = ra * ra + rb * rb;

@@ -8,11 +8,13 @@ namespace aftershade::pipeline {
 template <class Params, Plane (*Estimate)(const Params&, Work&)>
 class AoStage final : public Stage {
  public:
-  explicit AoStage(const Params& params) : params_(params) {}
+  /// `optional`: roles that it uses besides if they are there.
+  explicit AoStage(const Params& params, RoleSet optional = {}) : params_(params), optional_(optional) {}
 
   Needs needs(const Offer&) const override {
     Needs needs;
     needs.required = {Role::depth};
+    needs.optional = optional_;
     (params_.normals == ao::NormalSource::file ? needs.required : needs.optional).insert(Role::normal);
     needs.lens = needs.makes_ao = true;
     needs.makes_ao_at_pixels = params_.resolution != ao::Resolution::half;
@@ -33,6 +35,7 @@ class AoStage final : public Stage {
 
  private:
   Params params_;
+  RoleSet optional_;
 };
 
 }  // namespace aftershade::pipeline

@@ -24,6 +24,8 @@ class Stage {
 /// One overload a method: adding a method to preset::StageParams makes the compiler ask for it here.
 std::unique_ptr<Stage> make_stage(const ao::ScalableAoParams& params);
 std::unique_ptr<Stage> make_stage(const ao::HbaoParams& params);
+std::unique_ptr<Stage> make_stage(const ao::SliceAoParams& params);
+std::unique_ptr<Stage> make_stage(const ao::ReferenceAoParams& params);
 std::unique_ptr<Stage> make_stage(const ao::SphereKernelParams& params);
 std::unique_ptr<Stage> make_stage(const ao::GrowingCircleParams& params);
 std::unique_ptr<Stage> make_stage(const preset::AccumulativeSsaoParams& params);

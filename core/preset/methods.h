@@ -5,7 +5,9 @@
 #include "core/ao/apply_ao.h"
 #include "core/ao/growing_circle.h"
 #include "core/ao/hbao.h"
+#include "core/ao/reference_ao.h"
 #include "core/ao/scalable_ao.h"
+#include "core/ao/slice_ao.h"
 #include "core/ao/sphere_kernel.h"
 #include "core/filter/bilateral_blur.h"
 #include "core/filter/bilateral_upsample.h"
@@ -22,11 +24,12 @@ namespace aftershade::preset {
 /// THE list of methods. A method is added by writing its files and putting its parameter struct here (and its stage in
 /// core/pipeline, which the compiler then asks for); JSON, --set, help, manual, schema and the property tests loop over
 /// it.
-using StageParams = std::variant<ao::ScalableAoParams, ao::HbaoParams, ao::SphereKernelParams, ao::GrowingCircleParams,
-                                 AccumulativeSsaoParams, TemporalRefinementParams, filter::BilateralBlurParams,
-                                 filter::BilateralUpsampleParams, filter::CrossBilateralBlurParams,
-                                 temporal::SelectiveTemporalParams, temporal::TemporalBlurParams,
-                                 temporal::TemporalWindowParams, ao::ApplyAoParams, motionblur::ScalableBlurParams>;
+using StageParams =
+    std::variant<ao::ScalableAoParams, ao::HbaoParams, ao::SliceAoParams, ao::ReferenceAoParams, ao::SphereKernelParams,
+                 ao::GrowingCircleParams, AccumulativeSsaoParams, TemporalRefinementParams, filter::BilateralBlurParams,
+                 filter::BilateralUpsampleParams, filter::CrossBilateralBlurParams, temporal::SelectiveTemporalParams,
+                 temporal::TemporalBlurParams, temporal::TemporalWindowParams, ao::ApplyAoParams,
+                 motionblur::ScalableBlurParams>;
 
 /// Calls `visit(std::type_identity<Params>{})` for every method in the list's order.
 template <class Visit>
