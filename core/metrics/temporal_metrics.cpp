@@ -105,16 +105,13 @@ double warping_error(ConstPlaneView now, ConstPlaneView image_before, const Moti
   return std::sqrt(ratio(sum, static_cast<double>(count)));
 }
 
-Plane flicker_above_truth(ConstPlaneView now, ConstPlaneView image_before, ConstPlaneView truth_now,
-                          ConstPlaneView truth_before, const Motion& motion) {
-  if (!same_size(now, image_before) || !same_size(now, truth_now) || !same_size(now, truth_before) ||
-      !fits(motion, now))
+Plane flicker_above_truth(ConstPlaneView now, ConstPlaneView image_before, ConstPlaneView true_change,
+                          const Motion& motion) {
+  if (!same_size(now, image_before) || !same_size(now, true_change) || !fits(motion, now))
     return Plane(now.width, now.height, kNoValue);
   return plane_of(now.width, now.height, [&](int x, int y) {
-    const Position was = before(motion, x, y);
-    const double change = static_cast<double>(now(x, y)) - bilinear(image_before, was);
-    const double true_change = static_cast<double>(truth_now(x, y)) - bilinear(truth_before, was);
-    return std::abs(change - true_change);
+    const double change = static_cast<double>(now(x, y)) - bilinear(image_before, before(motion, x, y));
+    return std::abs(change - static_cast<double>(true_change(x, y)));
   });
 }
 

@@ -29,10 +29,11 @@ Plane warped(ConstPlaneView before, const Motion& motion);
 /// E_warp = sqrt(mean_M (A_t - W A_{t-1})^2).
 double warping_error(ConstPlaneView now, ConstPlaneView before, const Motion& motion, ConstPlaneView mask = {});
 
-/// Flicker above the truth's own change: |(A_t - W A_{t-1}) - (R_t - W R_{t-1})| at every pixel, NaN where there is no
-/// history. Change that the truth shows too does not count.
-Plane flicker_above_truth(ConstPlaneView now, ConstPlaneView before, ConstPlaneView truth_now,
-                          ConstPlaneView truth_before, const Motion& motion);
+/// Flicker above the truth's own change: |(A_t - W A_{t-1}) - D_t| at every pixel, NaN where there is no history.
+/// Change that the truth shows too does not count. `true_change` is D_t = R_t(p) - R_{t-1}(p) of the surface point p
+/// that each pixel shows, both exact at that point (0 where nothing moves but the camera). Warping an image of the
+/// truth would put its resampling error there instead, so that an image which never changes flickered.
+Plane flicker_above_truth(ConstPlaneView now, ConstPlaneView before, ConstPlaneView true_change, const Motion& motion);
 
 struct Distribution {
   double mean, p95, p99;  ///< percentiles by nearest rank: the smallest value that so many per cent do not exceed

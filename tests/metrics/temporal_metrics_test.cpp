@@ -76,11 +76,27 @@ TEST(WarpingError, IsTheRootOfTheMeanSquareAlongTheMotion) {
 
 TEST(Flicker, DoesNotCountWhatTheTruthDoesToo) {
   const Plane now = plane_of(3, {1, 0.5F, 0.5F}), before = plane_of(3, {0.5F, 0.5F, 1});
-  const Plane truth_now = plane_of(3, {1, 0.75F, 0.5F}), truth_before = plane_of(3, {0.5F, 0.5F, 0.5F});
-  const Plane f = flicker_above_truth(now, before, truth_now, truth_before, Shift(3, 1, 0, 0).motion());
+  const Plane f = flicker_above_truth(now, before, plane_of(3, {0.5F, 0.25F, 0}), Shift(3, 1, 0, 0).motion());
   EXPECT_EQ(f(0, 0), 0) << "rises as the truth rises";
   EXPECT_EQ(f(1, 0), 0.25F) << "stays where the truth rises";
   EXPECT_EQ(f(2, 0), 0.5F) << "falls where the truth stays";
+  EXPECT_TRUE(std::isnan(flicker_above_truth(now, before, Plane(2, 1), Shift(3, 1, 0, 0).motion())(0, 0)));
+}
+
+TEST(Flicker, ComparesWithTheSamePointsBetweenPixels) {
+  const Plane before = plane_of(3, {0, 0.5F, 0.75F}), now = plane_of(3, {0.25F, 0.25F, 1});
+  // A quarter of a pixel to the right: 0.125 and 0.5625 there before; changes 0.125 and -0.3125.
+  const Plane f = flicker_above_truth(now, before, plane_of(3, {0.125F, 0.0625F, 0}), Shift(3, 1, 0.25F, 0).motion());
+  EXPECT_EQ(f(0, 0), 0);
+  EXPECT_EQ(f(1, 0), 0.375F);
+  EXPECT_TRUE(std::isnan(f(2, 0))) << "from outside";
+}
+
+TEST(Flicker, IsNoneOfAConstantWhereNothingMovesButTheCamera) {
+  const Plane grey(9, 5, 0.5F), unchanged(9, 5);
+  const Plane f = flicker_above_truth(grey, grey, unchanged, Shift(9, 5, 0.25F, -0.625F).motion());
+  for (int y = 1; y < 5; ++y)
+    for (int x = 0; x < 8; ++x) EXPECT_EQ(f(x, y), 0) << x << " " << y;
 }
 
 TEST(Distribution, HasNearestRankPercentiles) {

@@ -147,8 +147,10 @@ class Story {
  public:
   Story(const std::string& scene_name, const StorySize& size)
       : size_(size), scene_(find_scene(scene_name)), source_(scene_, size) {
-    for (int t = kJudgedFirst - 1; t <= kJudgedLast; ++t) {
-      truth_[t] = coherent_truth(scene_, t, size);
+    AoTruth truth;
+    truth.rays = size.rays;
+    for (int t = kJudgedFirst; t <= kJudgedLast; ++t) {
+      true_change_[t] = cached_ao_change(scene_name, t, size.width, size.height, truth);
       prepare(t);
     }
     const bool moves = std::any_of(scene_.objects.begin(), scene_.objects.end(), is_moving);
@@ -168,7 +170,7 @@ class Story {
     return out;
   }
 
-  /// Of an AO that never changes: how much of the truth's own change the scores contain.
+  /// Of an AO that never changes: the truth's own change, which is 0 where only the camera moves.
   StoryScore score_of_nothing() const {
     MemorySink open;
     for (int t = kJudgedFirst - 1; t <= kJudgedLast; ++t) open.planes[t]["AO"] = Plane(size_.width, size_.height, 1);
@@ -176,7 +178,6 @@ class Story {
   }
 
   Plane ao(const preset::Preset& preset, int t) { return ao_at(run_frames(preset, kStoryFirst, kStoryLast), t); }
-  const Plane& truth(int t) const { return truth_.at(t); }
 
  private:
   static bool is_moving(const Object& object) { return !object.motion.is_identity() && moves(object.motion); }
@@ -259,7 +260,7 @@ class Story {
     std::vector<ConstPlaneView> views, unstable, stable;
     for (int t = kJudgedFirst; t <= kJudgedLast; ++t) {
       maps.push_back(metrics::flicker_above_truth(all.planes.at(t).at("AO"), all.planes.at(t - 1).at("AO"),
-                                                  truth_.at(t), truth_.at(t - 1), past_.at(t).motion()));
+                                                  true_change_.at(t), past_.at(t).motion()));
       unstable.push_back(unstable_.at(t));
       stable.push_back(stable_.at(t));
     }
@@ -283,7 +284,8 @@ class Story {
   StorySize size_;
   const Scene& scene_;
   RenderedScene source_;
-  std::map<int, Plane> truth_, stable_, unstable_, footprints_, hidden_, left_, stable_left_, uncovered_, entered_;
+  std::map<int, Plane> true_change_, stable_, unstable_, footprints_, hidden_, left_, stable_left_, uncovered_,
+      entered_;
   std::map<int, Past> past_;
 };
 

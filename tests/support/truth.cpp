@@ -1,5 +1,6 @@
 #include "tests/support/truth.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -74,6 +75,46 @@ Plane ambient_occlusion_truth(const Scene& scene, double time, int width, int he
         out(x, y) =
             static_cast<float>(ambient_occlusion_at(placed, hit->position, hit->normal, truth,
                                                     hash_counters(static_cast<uint32_t>(x), static_cast<uint32_t>(y))));
+  });
+  return out;
+}
+
+namespace {
+/// Where the points of an object were a frame before.
+class FrameBefore {
+ public:
+  FrameBefore(const Motion& motion, double time)
+      : now_(motion.object_to_world(time)), before_(motion.object_to_world(time - 1)), moved_(now_ != before_) {}
+  bool moved() const { return moved_; }
+  Vec3 position(const Hit& hit) const { return moved_ ? transform_point(hit.object_position, before_) : hit.position; }
+  Vec3 normal(const Hit& hit) const {
+    if (!moved_) return hit.normal;
+    const double side = transform_direction(hit.object_normal, now_).dot(hit.normal) < 0 ? -1 : 1;
+    return transform_direction(hit.object_normal, before_) * side;
+  }
+
+ private:
+  Mat4 now_, before_;
+  bool moved_;
+};
+}  // namespace
+
+Plane ambient_occlusion_change(const Scene& scene, double time, int width, int height, const AoTruth& truth) {
+  std::vector<FrameBefore> before;
+  for (const Object& object : scene.objects) before.emplace_back(object.motion, time);
+  Plane out(width, height);
+  if (std::none_of(before.begin(), before.end(), [](const FrameBefore& b) { return b.moved(); })) return out;
+  const PlacedScene placed(scene, time), placed_before(scene, time - 1);
+  const RayFan rays(camera_at(scene, time, width, height));
+  for_rows(height, [&](int y) {
+    for (int x = 0; x < width; ++x)
+      if (const auto hit = placed.trace(rays(x + 0.5, y + 0.5))) {
+        const uint32_t seed = hash_counters(static_cast<uint32_t>(x), static_cast<uint32_t>(y));
+        const FrameBefore& was = before[hit->object];
+        out(x, y) =
+            static_cast<float>(ambient_occlusion_at(placed, hit->position, hit->normal, truth, seed) -
+                               ambient_occlusion_at(placed_before, was.position(*hit), was.normal(*hit), truth, seed));
+      }
   });
   return out;
 }

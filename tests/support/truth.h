@@ -25,6 +25,11 @@ double ambient_occlusion_at(const PlacedScene& placed, const Vec3& position, con
 /// At the surface points of the pixel centres; 1 on the background.
 Plane ambient_occlusion_truth(const Scene& scene, double time, int width, int height, const AoTruth& truth);
 
+/// What changes in one frame at each pixel's surface point: its AO at `time` less the AO that the same point of its
+/// object had at time - 1. Both are traced at the point itself, with the same directions about the normal, so that the
+/// noise of what stays cancels: exactly 0 where nothing moves but the camera, and on the background.
+Plane ambient_occlusion_change(const Scene& scene, double time, int width, int height, const AoTruth& truth);
+
 /// R, G, B, A: the mean of `samples` renders at the midpoints of equal parts of a shutter that is open for
 /// shutter_frames, centred on `time`. Each is rendered with settings.colour_samples.
 std::vector<Plane> motion_blur_truth(const Scene& scene, double time, double shutter_frames, int samples,

@@ -75,16 +75,28 @@ std::vector<Plane> cached_planes(const std::string& key, const std::function<std
   return planes;
 }
 
-Plane cached_ao_truth(const std::string& scene, double time, int width, int height, const AoTruth& truth) {
+namespace {
+template <class Make>
+Plane cached_ao_plane(const char* what, Make&& make, const std::string& scene, double time, int width, int height,
+                      const AoTruth& truth) {
   require_small(width, height);
-  const std::string key = cat("ao ", scene, " ", time, " ", width, " ", height, " ", truth.radius_m, " ",
+  const std::string key = cat(what, " ", scene, " ", time, " ", width, " ", height, " ", truth.radius_m, " ",
                               static_cast<int>(truth.weighting), " ", static_cast<int>(truth.falloff), " ", truth.rays);
   auto planes = cached_planes(key, [&] {
     std::vector<Plane> made;
-    made.push_back(ambient_occlusion_truth(find_scene(scene), time, width, height, truth));
+    made.push_back(make(find_scene(scene), time, width, height, truth));
     return made;
   });
   return std::move(planes.at(0));
+}
+}  // namespace
+
+Plane cached_ao_truth(const std::string& scene, double time, int width, int height, const AoTruth& truth) {
+  return cached_ao_plane("ao", ambient_occlusion_truth, scene, time, width, height, truth);
+}
+
+Plane cached_ao_change(const std::string& scene, double time, int width, int height, const AoTruth& truth) {
+  return cached_ao_plane("ao change", ambient_occlusion_change, scene, time, width, height, truth);
 }
 
 std::vector<Plane> cached_blur_truth(const std::string& scene, double time, double shutter_frames, int samples,

@@ -11,6 +11,7 @@
 namespace aftershade::tests {
 
 Plane cached_ao_truth(const std::string& scene, double time, int width, int height, const AoTruth& truth);
+Plane cached_ao_change(const std::string& scene, double time, int width, int height, const AoTruth& truth);
 std::vector<Plane> cached_blur_truth(const std::string& scene, double time, double shutter_frames, int samples,
                                      const RenderSettings& settings);
 

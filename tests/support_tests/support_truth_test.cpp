@@ -59,6 +59,63 @@ TEST(AoTruthImage, FollowsTheDistanceToTheWall) {
   EXPECT_NEAR(metrics::mean_error(ao, expected), 0, 0.001);
 }
 
+TEST(AoChange, IsNothingWhereOnlyTheCameraMoves) {
+  for (const char* scene : {"columns", "grass"}) {
+    const Plane change = ambient_occlusion_change(find_scene(scene), 3, 40, 24, {});
+    for (int y = 0; y < 24; ++y)
+      for (int x = 0; x < 40; ++x) ASSERT_EQ(change(x, y), 0) << scene << " " << x << " " << y;
+  }
+}
+
+TEST(AoChange, BrightensBehindAMovingObjectAndDarkensBeforeIt) {
+  const int width = 80, height = 45;
+  const AoTruth truth{1, Weighting::cosine, Falloff::hard, 256};
+  const Scene& scene = find_scene("trail");  // its box moves along x, 0.18 m a frame
+  const PlacedScene placed(scene, 3);
+  const RayFan rays(camera_at(scene, 3, width, height));
+  const double box_x = scene.objects[1].motion.object_to_world(3)[3][0];
+  const Plane change = cached_ao_change("trail", 3, width, height, truth);
+  int behind = 0, ahead = 0, untouched = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const auto hit = placed.trace(rays(x + 0.5, y + 0.5));
+      ASSERT_TRUE(hit);
+      const Vec3 p = hit->position;
+      const double dx = p.x - box_x, dz = std::abs(p.z - 0.1);
+      if (hit->object == 0 && dz < 0.15 && dx < -0.25 && dx > -0.45) behind += change(x, y) > 0.05F ? 1 : -1000;
+      if (hit->object == 0 && dz < 0.15 && dx > 0.25 && dx < 0.45) ahead += change(x, y) < -0.05F ? 1 : -1000;
+      const bool far = hit->object == 0 && (dx < -1.5 || dx > 1.5 || dz > 1.5);
+      if (far || (hit->object == 1 && p.y > 0.599)) untouched += change(x, y) == 0 ? 1 : -1000;
+    }
+  EXPECT_GT(behind, 3);
+  EXPECT_GT(ahead, 3);
+  EXPECT_GT(untouched, 100);
+}
+
+TEST(AoChange, FollowsThePointsOfAMovingObject) {
+  // A box that carries its own shelf along over a floor that ends nowhere: nothing changes at any point of the two.
+  Scene scene = find_scene("trail");
+  Object shelf = scene.objects[1];
+  shelf.shape = Box{{0.1, 0.02, 0.1}};
+  shelf.motion.origin = shelf.motion.origin + Vec3(0, 0.5, 0.2);
+  scene.objects = {scene.objects[0], scene.objects[1], shelf};
+  const int width = 80, height = 45;
+  const Plane change = ambient_occlusion_change(scene, 3, width, height, {});
+  const PlacedScene placed(scene, 3);
+  const RayFan rays(camera_at(scene, 3, width, height));
+  int points = 0, occluded = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const auto hit = placed.trace(rays(x + 0.5, y + 0.5));
+      if (!hit || hit->object == 0) continue;
+      ++points;
+      EXPECT_NEAR(change(x, y), 0, 2.0 / 256) << "a ray or two on an edge, by rounding " << x << " " << y;
+      occluded += ambient_occlusion_at(placed, hit->position, hit->normal, {}, 1) < 0.9 ? 1 : 0;
+    }
+  EXPECT_GT(points, 100);
+  EXPECT_GT(occluded, 50);
+}
+
 TEST(AoTruthImage, IsOpenOnTheBackgroundAndClosedSomewhere) {
   const Plane ao = cached_ao_truth("columns", 4, 120, 68, {});
   const Frame frame = render(find_scene("columns"), 4, {120, 68, 1}, {Role::depth}, false);
