@@ -16,12 +16,12 @@ const params::Table& GrowingCircleParams::table() {
       params::TableBuilder<P>()
           .add("resolution", &P::resolution, {"full", "half"},
                "Evaluate the AO at every pixel, or at one pixel of every 2x2 block.")
-          .add("taps", &P::taps, {1, 1024}, "Taps per pixel.")
+          .add("taps", &P::taps, {1, 1024}, "Taps per pixel, along the growing circle.")
           .add("growth", &P::growth, {"linear", "sqrt"},
                "How the circle grows from tap to tap: by equal steps of its radius, dense near the pixel, or of its "
                "area.")
           .add("radius_m", &P::radius_m, {1e-6, 1e6}, "Distance at which a surface no longer occludes.")
-          .add("max_radius_screens", &P::max_radius_screens, {1e-4, 4},
+          .add("reach_screens", &P::reach_screens, {1e-4, 4},
                "Farthest that taps go from their pixel, as a share of the image's longer side.")
           .add("bias", &P::bias, {0, 1},
                "Sine of the angle above the surface below which nothing occludes, against self-occlusion.")
@@ -75,8 +75,8 @@ Plane growing_circle(const GrowingCircleParams& params, const filter::Surface& s
     growing_circle_row(
         {filter::GridSamples(grid), filter::NormalSamples(surface), filter::Lens(surface.projection),
          filter::Samples(surface.depth), taps, params.radius_m, params.radius_m * surface.projection.fx,
-         params.radius_m * surface.projection.fy, params.max_radius_screens * static_cast<float>(screen_px),
-         params.bias, params.strength, rotations(params, frame_number), (surface.origin_x + grid.origin_x) / grid.step,
+         params.radius_m * surface.projection.fy, params.reach_screens * static_cast<float>(screen_px), params.bias,
+         params.strength, rotations(params, frame_number), (surface.origin_x + grid.origin_x) / grid.step,
          (surface.origin_y + grid.origin_y) / grid.step, out.row(y)},
         y);
   });

@@ -22,7 +22,7 @@ struct GrowingCircleParams {
   int taps = 16;
   CircleGrowth growth = CircleGrowth::linear;  ///< ours: not stated by the seed
   float radius_m = 1.5F;
-  float max_radius_screens = 0.5F;
+  float reach_screens = 0.5F;
   float bias = 0.05F;          ///< ours
   float strength = 6;          ///< ours: matches a uniform hemisphere integral in a corner at 0.2 R
   bool pixel_rotation = true;  ///< one of 16 rotations a pixel, in a 4x4 pattern

@@ -34,7 +34,7 @@ struct Twin {
     const Vec3 centre = point(x, y), n(p.normals[0](x, y), p.normals[1](x, y), p.normals[2](x, y));
     const double scale = lens.orthographic ? 1 : 1 / centre.z;
     const double rx = params.radius_m * lens.fx * scale, ry = params.radius_m * lens.fy * scale;
-    const double share = std::min(1.0, static_cast<double>(params.max_radius_screens) * screen_px / std::max(rx, ry));
+    const double share = std::min(1.0, static_cast<double>(params.reach_screens) * screen_px / std::max(rx, ry));
     const double rotation =
         params.pixel_rotation
             ? static_cast<double>(kBayer4x4[static_cast<size_t>(((p.origin_y + y) & 3) * 4 + ((p.origin_x + x) & 3))])
@@ -73,7 +73,7 @@ TEST(GrowingCircleReference, AgreesWithTheTwin) {
         const Picture p = picture(141, 97, lens, bumps(lens), -5, 3);
         GrowingCircleParams params;
         params.growth = growth;
-        params.max_radius_screens = screens;
+        params.reach_screens = screens;
         params.pixel_rotation = variants++ % 3 != 0;
         const Plane fast = ao::growing_circle(params, p.surface(), filter::full_grid(p.surface()), 141, 0);
         const Twin twin{params, p, lens, 141};

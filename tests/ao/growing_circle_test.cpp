@@ -220,7 +220,7 @@ TEST(GrowingCircle, CircleGrowsToAShareOfTheScreenAndNoFarther) {
   GrowingCircleParams params = full();
   params.taps = 64;
   for (const auto& [screens, sees] : {std::pair(0.1F, false), {0.2F, true}}) {
-    params.max_radius_screens = screens;
+    params.reach_screens = screens;
     EXPECT_EQ(occlude(params, p, 1, 100)(60, 40) < 1, sees) << screens;
   }
   EXPECT_EQ(occlude(params, p, 1, 50)(60, 40), 1.0F) << "the share of a smaller screen";
