@@ -60,6 +60,7 @@ int main(int argc, char** argv) {
   for (const std::string& scene : scenes) {
     tests::Story story(scene, {});
     rows.push_back(print(scene, "(constant)", story.score_of_nothing()));
+    rows.push_back(print(scene, "(truth)", story.score_of_truth()));
     for (const tests::StorySystem& system : tests::story_systems())
       rows.push_back(print(scene, system.name, story.score(system.preset)));
   }
