@@ -23,7 +23,7 @@ params::Json json_of(const tests::TrailScore& t) {
 
 void print_trail(const std::optional<tests::TrailScore>& t) {
   if (t)
-    std::printf("  %+7.4f %6.4f %5.1f%% %5.2f", t->all.mean, t->all.absolute, 100 * t->all.visible,
+    std::printf("  %+8.5f %7.5f %5.1f%% %5.2f", t->all.mean, t->all.absolute, 100 * t->all.visible,
                 t->half_life_frames);
 }
 
