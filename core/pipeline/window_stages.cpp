@@ -50,6 +50,7 @@ class TemporalWindow final : public Stage {
   }
 
   void run(Work& work) override {
+    if (params_.frames == 0) return;  // a window of the frame alone: nothing was observed
     const int number = work.frame.number;
     while (frames_.front().number < number - params_.frames) frames_.pop_front();
     std::vector<const temporal::WindowFrame*> window;

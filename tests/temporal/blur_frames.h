@@ -53,4 +53,27 @@ struct BlurFrame {
   }
 };
 
+/// A slope, thin things in front of it and a hole of background.
+inline View slope_with_bars(const Lens& lens) {
+  return [=](double x, double y) {
+    if (x > 40 && y > 30 && x < 50) return Hit{};
+    Hit hit = meet_plane(lens, x, y, {0.3, 0.5, -0.8}, -3);
+    if (std::fmod(x + 2 * y + 400, 23) < 5) hit.z -= 0.4;
+    return hit;
+  };
+}
+
+/// Moves every pixel's past by up to `px` and its expected depth by up to `depth_m`.
+inline void disturb(BlurFrame& frame, float px, float depth_m) {
+  for (int y = 0; y < frame.height(); ++y)
+    for (int x = 0; x < frame.width(); ++x) {
+      frame.where.x(x, y) += px * (2 * random_at(x, y, 1) - 1);
+      frame.where.y(x, y) += px * (2 * random_at(x, y, 2) - 1);
+      frame.where.depth(x, y) += depth_m * (2 * random_at(x, y, 3) - 1);
+      if (random_at(x, y, 4) < 0.03F) frame.where.x(x, y) = kNan;
+    }
+}
+
+inline float noise(int x, int y) { return random_at(x, y, 9); }
+
 }  // namespace aftershade::tests
