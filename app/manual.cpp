@@ -21,6 +21,12 @@ std::string roff(std::string_view text) {
   return out;
 }
 
+/// A default as prose has it: names without quotes, which would also end the macro's argument.
+std::string default_text(const params::Record& record) {
+  const params::Json& value = record.default_value;
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
 const CommandText& command_named(const std::string& name) {
   for (const CommandText& command : command_texts())
     if (command.name == name) return command;
@@ -48,7 +54,7 @@ std::string man_methods() {
     out += ".SS " + roff(method.method) + "\n" + roff(method.summary) + ".\n";
     for (const params::Record& record : *method.table)
       out += ".TP\n.BR " + roff(record.key) + " \" (" + roff(params::domain_text(record)) + "; default " +
-             roff(record.default_value.dump()) + ")\"\n" + roff(record.doc) + "\n";
+             roff(default_text(record)) + ")\"\n" + roff(record.doc) + "\n";
   }
   return out;
 }

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -49,6 +50,16 @@ TEST(GeneratedParts, ReplaceWhatStandsBetweenTheMarks) {
 }
 
 TEST(GeneratedParts, UnknownNameIsAnError) { EXPECT_THROW(generated_part("nonsense"), Error); }
+
+/// The arguments of a macro are in quotes: a quote within would end them and be printed.
+TEST(GeneratedParts, HeadsOfParametersHaveNoQuotesWithin) {
+  std::istringstream lines(generated_part("methods"));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(".BR ")) {
+      EXPECT_EQ(std::ranges::count(line, '"'), 2) << line;
+    }
+  }
+}
 
 TEST(Manual, EveryCommandHasItsOptionsInThePage) {
   const std::string page = read(kRoot + "man/aftershade.1");
