@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 
 #include "app/commands.h"
@@ -17,9 +18,13 @@ void need_names(const PresetsArgs& args, size_t least, size_t most, std::string_
 }
 
 int list() {
-  for (const std::string& name : preset::shipped_presets()) {
+  const std::vector<std::string> names = preset::shipped_presets();
+  size_t longest = 0;
+  for (const std::string& name : names) longest = std::max(longest, name.size());
+  for (const std::string& name : names) {
     const std::string description = preset::load_preset(name).preset.description;
-    std::printf("%-20s %s\n", name.c_str(), description.substr(0, description.find(". ") + 1).c_str());
+    const std::string first_sentence = description.substr(0, description.find(". ") + 1);
+    std::printf("%-*s  %s\n", static_cast<int>(longest), name.c_str(), first_sentence.c_str());
   }
   return 0;
 }

@@ -62,6 +62,7 @@ TEST_P(ShippedPreset, LoadsAndRoundTrips) {
 
 TEST_P(ShippedPreset, SaysWhatIsOursAndWhoseTheRestIs) {
   const std::string description = load_preset(GetParam()).preset.description;
+  EXPECT_LE(description.find(". "), 120U) << "its first sentence is its line in presets list: " << description;
   EXPECT_TRUE(std::regex_search(description, std::regex("\\b([Oo]urs|[Aa]ssumed|no public source)\\b"))) << description;
   EXPECT_TRUE(std::regex_search(description, std::regex("\\b20[01][0-9]\\b")))
       << "no year of a source: " << description;
