@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/camera/camera.h"
 #include "core/image/plane.h"
@@ -29,10 +30,10 @@ inline Basis basis_across(Vec v) {
   return {s, cross(v, s)};
 }
 
-/// What a pixel sees in one layer: where its surface begins and for how many metres it goes on along `ray`.
+/// What a pixel sees in one layer: its surface begins at `front` and goes on to front + length ray.
 struct Solid {
-  Vec front, ray;
-  float length;
+  Vec front, ray;  ///< ray: of one metre of planar depth
+  float length;    ///< metres of planar depth
 };
 
 /// What is evaluated: a point of the first layer, the unit vector to the camera, the unit normal.
@@ -49,68 +50,65 @@ inline bool below_horizon(const Receiver& at, const Solid& solid) {
 }
 
 struct DepthView {
-  ConstPlaneView depth, thickness;
+  ConstPlaneView depth, thickness;    ///< thickness as planar_thickness has it
   ConstPlaneView depth2, thickness2;  ///< the second layer; may be empty
   ConstPlaneView nx, ny, nz;
   Projection lens;
   float inv_fx, inv_fy;
   bool extend_border;
 
+  float slope_x(int x) const { return (static_cast<float>(x) + 0.5F - lens.cx) * inv_fx; }
+  float slope_y(int y) const { return -((static_cast<float>(y) + 0.5F - lens.cy) * inv_fy); }
   Vec unproject(int x, int y, float z) const {
     const float s = lens.orthographic ? 1.0F : z;
-    return {(static_cast<float>(x) + 0.5F - lens.cx) * inv_fx * s,
-            -((static_cast<float>(y) + 0.5F - lens.cy) * inv_fy * s), z};
+    return {slope_x(x) * s, slope_y(y) * s, z};
   }
-  Vec ray(Vec front) const { return lens.orthographic ? Vec{0, 0, 1} : unit(front); }
+  /// The pixel's ray, one metre of planar depth long.
+  Vec ray(int x, int y) const { return lens.orthographic ? Vec{0, 0, 1} : Vec{slope_x(x), slope_y(y), 1}; }
   bool contains(int x, int y) const { return x >= 0 && y >= 0 && x < depth.width && y < depth.height; }
 
-  /// Calls visit(Solid) for each layer at pixel (x, y); outside the image the border pixel's surface goes on as a plane
+  int layers() const { return depth2.empty() ? 1 : 2; }
+
+  /// What pixel (x, y) shows in a layer, 0 or 1; outside the image the border pixel's surface goes on as a plane
   /// (ours), unless the border is open.
-  template <class Visit>
-  void for_solids(int x, int y, Visit&& visit) const {
-    if (!contains(x, y)) {
-      if (extend_border) extended(x, y, visit);
-      return;
-    }
+  std::optional<Solid> solid(int x, int y, int layer) const {
+    if (!contains(x, y)) return extend_border && layer == 0 ? extended(x, y) : std::nullopt;
     const float z = depth(x, y);
-    if (!is_surface(z)) return;
-    Solid first{unproject(x, y, z), {}, thickness(x, y)};
-    first.ray = ray(first.front);
-    if (!depth2.empty() && is_surface(depth2(x, y)) && depth2(x, y) > z) {
-      const Solid second{unproject(x, y, depth2(x, y)), first.ray, thickness2(x, y)};
-      first.length = std::min(first.length, dot(second.front - first.front, first.ray));
-      visit(second);
+    if (!is_surface(z)) return {};
+    const bool covers = !depth2.empty() && is_surface(depth2(x, y)) && depth2(x, y) > z;
+    if (layer == 0) {
+      const float length = covers ? std::min(thickness(x, y), depth2(x, y) - z) : thickness(x, y);
+      return Solid{unproject(x, y, z), ray(x, y), length};
     }
-    visit(first);
+    if (!covers) return {};
+    return Solid{unproject(x, y, depth2(x, y)), ray(x, y), thickness2(x, y)};
   }
 
-  /// Unit normal of a pixel's surface seen along `ray`. One that faces away is turned to the camera as little as
-  /// needed; without one the surface is taken to face the camera.
-  Vec normal(int x, int y, Vec ray) const {
+  /// Unit normal of a pixel's surface seen along unit vector `along`. One that faces away is turned to the camera as
+  /// little as needed; without one the surface is taken to face the camera.
+  Vec normal(int x, int y, Vec along) const {
     Vec n{nx(x, y), ny(x, y), nz(x, y)};
-    const float away = dot(n, ray);
-    if (away > 0) n = n - ray * away;
+    const float away = dot(n, along);
+    if (away > 0) n = n - along * away;
     const float squared = dot(n, n);
-    return squared > 0.01F && squared < 100 ? unit(n) : ray * -1;
+    return squared > 0.01F && squared < 100 ? unit(n) : along * -1;
   }
 
   Receiver receiver(int x, int y) const {
-    const Vec point = unproject(x, y, depth(x, y)), along = ray(point);
-    return {x, y, point, along * -1, normal(x, y, along)};
+    const Vec along = unit(ray(x, y));
+    return {x, y, unproject(x, y, depth(x, y)), along * -1, normal(x, y, along)};
   }
 
  private:
-  template <class Visit>
-  void extended(int x, int y, Visit&& visit) const {
+  std::optional<Solid> extended(int x, int y) const {
     const int bx = std::clamp(x, 0, depth.width - 1), by = std::clamp(y, 0, depth.height - 1);
-    if (!is_surface(depth(bx, by))) return;
+    if (!is_surface(depth(bx, by))) return {};
     const Vec border = unproject(bx, by, depth(bx, by)), n{nx(bx, by), ny(bx, by), nz(bx, by)},
               through = unproject(x, y, 1);
     const float z = lens.orthographic ? border.z - (n.x * (through.x - border.x) + n.y * (through.y - border.y)) / n.z
                                       : dot(n, border) / dot(n, through);
-    if (!is_surface(z)) return;
-    const Vec front = unproject(x, y, z);
-    visit(Solid{front, ray(front), thickness(bx, by)});
+    if (!is_surface(z)) return {};
+    return Solid{unproject(x, y, z), ray(x, y), thickness(bx, by)};
   }
 };
 

@@ -66,8 +66,8 @@ struct Turns {
 Plane reference_ao(const ReferenceAoParams& params, const filter::Surface& surface, const filter::SampleGrid& grid,
                    ConstPlaneView depth2) {
   const Projection& lens = surface.projection;
-  const Plane thickness = thickness_map(params, surface.depth, lens);
-  const Plane thickness2 = depth2.empty() ? Plane() : thickness_map(params, depth2, lens);
+  const Plane thickness = planar_thickness(params, surface.depth, lens);
+  const Plane thickness2 = depth2.empty() ? Plane() : planar_thickness(params, depth2, lens);
   const auto directions = hemisphere(params.rays, params.weighting);
   const Turns turns;
   const march::Rays rays{{surface.depth, thickness, depth2, thickness2, surface.nx, surface.ny, surface.nz, lens,

@@ -71,13 +71,13 @@ inline float distance(const Rays& all, const Receiver& at, Vec direction) {
   for (int pixels = 0; pixels < most && tau < 1; ++pixels) {
     const float leave = std::min({next_x, next_y, 1.0F});
     float nearest = kNever;
-    if (pixels > 0)
-      all.view.for_solids(x, y, [&](const Solid& solid) {
-        if (below_horizon(at, solid)) return;
-        const int nx = std::clamp(x, 0, all.view.depth.width - 1), ny = std::clamp(y, 0, all.view.depth.height - 1);
-        const Vec normal = all.view.normal(nx, ny, solid.ray);
-        nearest = std::min(nearest, meets(at.point, direction, solid, normal, p.metres(tau), p.metres(leave)));
-      });
+    for (int layer = 0; pixels > 0 && layer < all.view.layers(); ++layer) {
+      const std::optional<Solid> solid = all.view.solid(x, y, layer);
+      if (!solid || below_horizon(at, *solid)) continue;
+      const int nx = std::clamp(x, 0, all.view.depth.width - 1), ny = std::clamp(y, 0, all.view.depth.height - 1);
+      const Vec normal = all.view.normal(nx, ny, unit(solid->ray));
+      nearest = std::min(nearest, meets(at.point, direction, *solid, normal, p.metres(tau), p.metres(leave)));
+    }
     if (nearest < all.radius_m) return nearest;
     tau = leave;
     if (next_x <= next_y) {

@@ -85,8 +85,8 @@ Plane pixel_filtered(ConstPlaneView values, ConstPlaneView depth, float deviatio
 Plane slice_ao(const SliceAoParams& params, const filter::Surface& surface, const filter::SampleGrid& grid,
                int frame_number, ConstPlaneView depth2) {
   const Projection& lens = surface.projection;
-  const Plane thickness = thickness_map(params, surface.depth, lens);
-  const Plane thickness2 = depth2.empty() ? Plane() : thickness_map(params, depth2, lens);
+  const Plane thickness = planar_thickness(params, surface.depth, lens);
+  const Plane thickness2 = depth2.empty() ? Plane() : planar_thickness(params, depth2, lens);
   const auto turns = directions(params.slices, params.per_frame_noise, frame_number);
   const auto offsets = sample_offsets();
   const slice::Slices slices{{surface.depth, thickness, depth2, thickness2, surface.nx, surface.ny, surface.nz, lens,

@@ -22,7 +22,7 @@ inline float arc_cosine(float x) {
   return x < 0 ? 3.14159265F - r : r;
 }
 
-/// Elevations are kept as u = -cos(theta), which grows with the angle theta from the view vector (0: -1, pi: 1).
+/// Elevations are kept as t = -cot(theta), which grows with the angle theta from the view vector.
 struct Interval {
   float from, to;
 };
@@ -49,13 +49,16 @@ inline void unite(std::vector<Interval>& list, Interval added) {
 struct Arc {
   float sin_gamma, cos_gamma;
   /// Int_0^theta cos(t - gamma) sin t dt = (cos g + 2 theta sin g - cos(2 theta - g)) / 4   (algorithms 9.1)
-  float operator()(float u) const {
-    const float c = -u, s = std::sqrt(std::max(1 - u * u, 0.0F));
-    const float double_angle = (c * c - s * s) * cos_gamma + 2 * s * c * sin_gamma;
-    return 0.25F * (cos_gamma + 2 * arc_cosine(c) * sin_gamma - double_angle);
+  float up_to(float cos, float sin) const {
+    const float double_angle = (cos * cos - sin * sin) * cos_gamma + 2 * sin * cos * sin_gamma;
+    return 0.25F * (cos_gamma + 2 * arc_cosine(cos) * sin_gamma - double_angle);
   }
-  float horizon() const { return sin_gamma; }  ///< u of gamma + pi/2
-  float whole() const { return (*this)(horizon()); }
+  float operator()(float t) const {
+    const float sin = 1 / std::sqrt(1 + t * t);
+    return up_to(-t * sin, sin);
+  }
+  float horizon() const { return sin_gamma / cos_gamma; }  ///< t of gamma + pi/2
+  float whole() const { return up_to(-sin_gamma, cos_gamma); }
   float hidden(std::span<const Interval> list) const {
     float sum = 0;
     for (const Interval& i : list) sum += (*this)(i.to) - (*this)(i.from);
@@ -80,6 +83,7 @@ struct Side {
   Vec across, beside;
   float slide_across, slide_view;
   Arc arc;
+  float horizon;
 };
 
 /// A sample beside the slice is slid into it along the receiver's tangent plane, by the shortest way (ours): a surface
@@ -87,28 +91,35 @@ struct Side {
 inline Side make_side(Vec across, Vec beside, const Receiver& at) {
   const float nd = dot(at.normal, across), nv = dot(at.normal, at.view), ne = dot(at.normal, beside);
   const float squared = nd * nd + nv * nv, length = std::sqrt(squared);
-  return {across, beside, ne * nd / squared, ne * nv / squared, {nd / length, nv / length}};
+  const Arc arc{nd / length, nv / length};
+  return {across, beside, ne * nd / squared, ne * nv / squared, arc, arc.horizon()};
 }
 
-/// u of the point `a` across and `b` towards the camera.
-inline float elevation(float a, float b) { return -b / std::sqrt(a * a + b * b); }
+/// t of the point `a` > 0 across and `b` towards the camera; squares stay finite.
+inline float elevation(float a, float b) { return std::clamp(-b / a, -1e9F, 1e9F); }
 
 /// What the solid hides of the arc: from its front to its back, inside the sphere. Nothing: from >= to.
 inline Interval hidden_by(const Side& side, const Receiver& at, const Solid& solid, float radius_m) {
   constexpr Interval kNothing{1, -1};
-  const Vec d = solid.front - at.point;
   if (below_horizon(at, solid)) return kNothing;
+  const Vec d = solid.front - at.point;
   const float c = dot(d, side.beside);
   const float a = dot(d, side.across) + c * side.slide_across, b = dot(d, at.view) + c * side.slide_view;
-  const float ra = dot(solid.ray, side.across), rb = dot(solid.ray, at.view), rr = ra * ra + rb * rb;
-  const float half = (a * ra + b * rb) / rr, outside = (a * a + b * b - radius_m * radius_m) / rr;
-  const float discriminant = half * half - outside;
-  if (!(discriminant > 0)) return kNothing;
-  const float root = std::sqrt(discriminant);
-  const float first = std::max(-half - root, 0.0F), last = std::min(root - half, solid.length);
+  const float ra = dot(solid.ray, side.across), rb = dot(solid.ray, at.view);
+  // (a, b) + l (ra, rb) is inside the sphere where rr l^2 + 2 half l + outside < 0.
+  const float rr = ra * ra + rb * rb, half = a * ra + b * rb, outside = a * a + b * b - radius_m * radius_m;
+  float first = 0, last = solid.length;
+  const bool front_inside = outside < 0, back_inside = (rr * last + 2 * half) * last + outside < 0;
+  if (!front_inside || !back_inside) {
+    const float discriminant = half * half - rr * outside;
+    if ((!front_inside && half >= 0) || !(discriminant > 0)) return kNothing;
+    const float root = std::sqrt(discriminant);
+    if (!front_inside) first = (-half - root) / rr;
+    last = std::min(last, (root - half) / rr);
+  }
   const float a0 = a + first * ra, a1 = a + last * ra;
   if (!(first < last) || !(a0 > 0) || !(a1 > 0)) return kNothing;
-  return {elevation(a0, b + first * rb), std::min(elevation(a1, b + last * rb), side.arc.horizon())};
+  return {elevation(a0, b + first * rb), std::min(elevation(a1, b + last * rb), side.horizon)};
 }
 
 /// From the receiver to where this side leaves the projected sphere of the radius, in pixels.
@@ -132,6 +143,9 @@ inline Screen reach(const Slices& all, const Receiver& at, Vec across) {
   return {x * scale, y * scale};
 }
 
+/// Nearest integer, |x| < 2^22; in lanes round_small.
+inline int nearest(float x) { return static_cast<int>((x + 12582912.0F) - 12582912.0F); }
+
 /// Samples from the receiver outwards, i + (r - steps) ((i - offset) / steps)^2 pixels away: every pixel near, wider
 /// apart far away (XeGTAO distributes by the square too, algorithms 9.2).
 inline float hidden_on_side(const Slices& all, const Receiver& at, const Side& side, float offset,
@@ -141,18 +155,19 @@ inline float hidden_on_side(const Slices& all, const Receiver& at, const Side& s
   const float longest = std::max(std::fabs(end.x), std::fabs(end.y)), dx = end.x / longest, dy = end.y / longest;
   const auto image = static_cast<float>(std::max(all.view.depth.width, all.view.depth.height));
   const int last = static_cast<int>(std::min(longest, image) + 0.5F);
-  const int count = all.steps > 0 ? std::min(all.steps, last) : last;
+  const int count = all.steps > 0 ? std::min(all.steps, last) : last, layers = all.view.layers();
   if (count == 0) return 0;
   const auto n = static_cast<float>(count);
   const float growth = (static_cast<float>(last) - n) / (n * n);
   for (int i = 1; i <= count; ++i) {
-    const float k = static_cast<float>(i), r = k + std::floor(growth * (k - offset) * (k - offset));
-    const int x = at.x + static_cast<int>(std::floor(dx * r + 0.5F));
-    const int y = at.y + static_cast<int>(std::floor(dy * r + 0.5F));
-    all.view.for_solids(x, y, [&](const Solid& solid) {
-      const Interval hidden = hidden_by(side, at, solid, all.radius_m);
+    const float k = static_cast<float>(i) - offset, r = static_cast<float>(i + static_cast<int>(growth * k * k));
+    const int x = at.x + nearest(dx * r), y = at.y + nearest(dy * r);
+    for (int layer = 0; layer < layers; ++layer) {
+      const std::optional<Solid> solid = all.view.solid(x, y, layer);
+      if (!solid) continue;
+      const Interval hidden = hidden_by(side, at, *solid, all.radius_m);
       if (hidden.from < hidden.to) unite(list, hidden);
-    });
+    }
   }
   return side.arc.hidden(list);
 }

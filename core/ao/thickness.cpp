@@ -93,4 +93,17 @@ Plane thickness_map(const DepthGeometry& geometry, ConstPlaneView depth, const P
   return map;
 }
 
+Plane planar_thickness(const DepthGeometry& geometry, ConstPlaneView depth, const Projection& lens) {
+  Plane map = thickness_map(geometry, depth, lens);
+  if (lens.orthographic) return map;
+  for_rows(map.height(), [&](int y) {
+    const float v = (static_cast<float>(y) + 0.5F - lens.cy) / lens.fy;
+    for (int x = 0; x < map.width(); ++x) {
+      const float u = (static_cast<float>(x) + 0.5F - lens.cx) / lens.fx;
+      map(x, y) /= std::sqrt(u * u + v * v + 1);
+    }
+  });
+  return map;
+}
+
 }  // namespace aftershade::ao

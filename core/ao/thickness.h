@@ -16,4 +16,7 @@ Plane object_widths(ConstPlaneView depth, const Projection& projection);
 /// Metres along its ray for which what is seen at a pixel goes on behind its front.
 Plane thickness_map(const DepthGeometry& geometry, ConstPlaneView depth, const Projection& projection);
 
+/// The same, in metres of planar depth.
+Plane planar_thickness(const DepthGeometry& geometry, ConstPlaneView depth, const Projection& projection);
+
 }  // namespace aftershade::ao
