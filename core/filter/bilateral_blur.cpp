@@ -8,16 +8,11 @@
 
 namespace aftershade::filter {
 
-namespace {
-
-constexpr float kPatternReach = 2;  ///< texels; the least radius, unless less is asked for
-
 float radius_texels(const BilateralBlurParams& params, int display_height) {
+  constexpr float kPatternReach = 2;  // across a 4x4 pattern
   return std::max(scaled_px(params.radius_px, params.reference_height_px, display_height),
                   std::min(params.radius_px, kPatternReach));
 }
-
-}  // namespace
 
 const params::Table& BilateralBlurParams::table() {
   using P = BilateralBlurParams;

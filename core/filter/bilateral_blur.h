@@ -26,6 +26,9 @@ struct BilateralBlurParams {
   bool operator==(const BilateralBlurParams&) const = default;
 };
 
+/// The radius at this image height, in texels: at least 2, unless radius_px is less.
+float radius_texels(const BilateralBlurParams& params, int display_height);
+
 /// `value` on the grid; returns the blurred value on the grid. X pass, then Y pass, both with the centre's surface.
 Plane bilateral_blur(const BilateralBlurParams& params, ConstPlaneView value, const SampleGrid& grid,
                      const Surface& surface);

@@ -1,6 +1,5 @@
 #include "core/filter/convergence_blur.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/filter/convergence_blur_kernel.h"
@@ -10,9 +9,7 @@ namespace aftershade::filter {
 
 Plane convergence_blur(const BilateralBlurParams& params, ConstPlaneView value, ConstPlaneView convergence,
                        const SampleGrid& grid, const Surface& surface) {
-  constexpr float kPatternReach = 2;  // texels, across a 4x4 pattern; the least radius, unless less is asked for
-  const float radius = std::max(scaled_px(params.radius_px, params.reference_height_px, surface.display_height),
-                                std::min(params.radius_px, kPatternReach));
+  const float radius = radius_texels(params, surface.display_height);
   if (!(radius > 0)) return copy_of(value);
   const EdgeTolerance tolerance(params.edge_distance_m, params.edge_footprints, grid.step, surface.projection);
   const auto pass = [&](ConstPlaneView in, int dx, int dy) {
