@@ -5,10 +5,7 @@ namespace aftershade::ao {
 
 /// Every pixel, one of every 2x2 block, or so and again every pixel that those blocks do not represent.
 enum class Resolution { full, half, dual };
-enum class NormalSource {
-  automatic,
-  file,
-  depth
-};  ///< the file's where it has some, the file's only, the depth's only
+/// The file's where it has some and else the depth's, the file's only, the depth's only.
+enum class NormalSource { automatic, file, depth };
 
 }  // namespace aftershade::ao

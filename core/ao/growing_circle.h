@@ -11,8 +11,9 @@ enum class CircleGrowth { linear, sqrt };
 /// SOMA's SSAO (P. Wester, "Generating smooth and cheap SSAO using Temporal Blur", 2014; seed 001): taps in a growing
 /// circle around the pixel, out to 1.5 m or half a screen; each occludes by how close it is and whether it lies in
 /// front of the surface. The article has no formula; algorithms 5.2 fills it in (ours):
-///   tap i: angle = i golden turns + rotation, radius = min(R f / z, share of the screen) ((i + 0.5) / taps), or its
-///   root visibility = 1 - sat(strength mean_i(max(v_i / |v_i| . n - bias, 0) max(1 - |v_i| / R, 0)))
+///   tap i lies at i golden turns + rotation, min(R f / z, share of the screen) (i + 0.5) / taps px away,
+///     or by the root of (i + 0.5) / taps
+///   visibility = 1 - sat(strength mean_i(max(v_i / |v_i| . n - bias, 0) max(1 - |v_i| / R, 0)))
 /// v goes from the pixel's point to the tap's. The screen's share limits where taps fall; R stays what it is. Taps on
 /// background do not occlude; taps outside the image stand for as much occlusion as those inside.
 struct GrowingCircleParams {

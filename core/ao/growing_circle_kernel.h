@@ -2,6 +2,7 @@
 #include <array>
 #include <span>
 
+#include "core/ao/pattern_tile.h"
 #include "core/ao/tap_pattern.h"
 #include "core/filter/lane_geometry.h"
 
@@ -46,7 +47,7 @@ inline void growing_circle_row(const GrowingCircleRow& row, int y) {
     const Float share = min(row.max_radius_px / max(x_px, y_px), 1.0F);
     constexpr float kFarOutside = 1e6F;  // keeps tap positions inside an Int
     const Float reach_x = min(x_px * share, kFarOutside), reach_y = min(y_px * share, kFarOutside);
-    const Int cell = (((iy + Int(row.texel_y)) & Int(3)) << 2) + ((x + Int(row.texel_x)) & Int(3));
+    const Int cell = tile_cell(x + Int(row.texel_x), iy + Int(row.texel_y));
     const SinCos rotation = sincos_turns(gather(row.rotation_turns.data(), cell));
     Float sum = 0.0F, inside = 0.0F, all = 0.0F;
     for (const Tap& tap : row.taps) {

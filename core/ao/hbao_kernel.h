@@ -1,5 +1,6 @@
 #pragma once
 #include "core/ao/hbao.h"
+#include "core/ao/pattern_tile.h"
 #include "core/filter/lane_geometry.h"
 
 namespace aftershade::ao {
@@ -207,7 +208,7 @@ inline void hbao_row(const HbaoRow& row, int y) {
     const Float z = row.grid.depth(x, iy);
     const Mask here = filter::is_surface(z);
     const HbaoCentre centre = centre_of(row, x, iy, select(here, z, 1.0F));
-    const Int cell = (((iy + Int(row.texel_y)) & Int(3)) << 2) + ((x + Int(row.texel_x)) & Int(3));
+    const Int cell = tile_cell(x + Int(row.texel_x), iy + Int(row.texel_y));
     const Float rotation = gather(row.pattern.rotation.data(), cell);
     const Layout taps = layout(row, centre.z, gather(row.pattern.shift.data(), cell));
     Float occlusion = 0.0F, weights = 0.0F;

@@ -2,6 +2,7 @@
 #include <array>
 #include <span>
 
+#include "core/ao/pattern_tile.h"
 #include "core/ao/scalable_ao.h"
 #include "core/ao/tap_pattern.h"
 #include "core/filter/lane_geometry.h"
@@ -123,7 +124,7 @@ inline void scalable_ao_row(const ScalableAoRow& row, int y) {
     const Point normal = row.normals(px, py);
     const ProjectedRadius radius = projected_radius(row, select(here, z, 1.0F));
     const Float longest = max(radius.x_px, radius.y_px);
-    const Int cell = (((iy + Int(row.texel_y)) & Int(3)) << 2) + ((x + Int(row.texel_x)) & Int(3));
+    const Int cell = tile_cell(x + Int(row.texel_x), iy + Int(row.texel_y));
     const SinCos rotation = sincos_turns(gather(row.rotation_turns.data(), cell) + row.noise_turns);
     Float sum = 0.0F, inside = 0.0F;
     for (const Tap& tap : row.taps) {

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/ao/ball_samples.h"
+#include "core/ao/pattern_tile.h"
 #include "core/ao/sphere_kernel.h"
 #include "core/filter/lane_geometry.h"
 
@@ -61,7 +62,7 @@ struct BallCentre {
 inline BallCentre ball_centre(const SphereTaps& taps, Int x, Int y) {
   const Int px = to_int(taps.grid.x_of(x, y)), py = to_int(taps.grid.y_of(x, y));
   const Float fx = to_float(px), fy = to_float(py), z = taps.grid.depth(x, y);
-  const Int cell = (((y + Int(taps.texel_y)) & Int(3)) << 2) + ((x + Int(taps.texel_x)) & Int(3));
+  const Int cell = tile_cell(x + Int(taps.texel_x), y + Int(taps.texel_y));
   const MirrorTile& tile = mirror_tile();
   return {px,
           py,
