@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/math/sampling.h"
-#include "core/simd/math.h"
+#include "core/simd/scalar.h"
 
 namespace aftershade::ao {
 
@@ -31,12 +31,9 @@ struct Direction {
   float x, y, z;
 };
 Direction direction(double height, double turns) {
-  const lanes::SinCos angle = lanes::sincos_turns(static_cast<float>(turns));
-  float sine[lanes::kLanes], cosine[lanes::kLanes];
-  lanes::store(sine, angle.sin);
-  lanes::store(cosine, angle.cos);
+  const lanes::UnitVector azimuth = lanes::unit_vector(static_cast<float>(turns));
   const auto flat = static_cast<float>(std::sqrt(1 - height * height));
-  return {flat * cosine[0], flat * sine[0], static_cast<float>(height)};
+  return {flat * azimuth.x, flat * azimuth.y, static_cast<float>(height)};
 }
 
 BallSamples make_ball() {

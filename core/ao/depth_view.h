@@ -3,8 +3,8 @@
 #include <cmath>
 #include <optional>
 
-#include "core/camera/camera.h"
-#include "core/image/plane.h"
+#include "core/ao/depth_geometry.h"
+#include "core/filter/surface.h"
 
 /// The picture as points in camera space, in plain floats, for the estimators whose control flow resists lanes.
 namespace aftershade::ao {
@@ -111,5 +111,22 @@ struct DepthView {
     return Solid{unproject(x, y, z), ray(x, y), thickness(bx, by)};
   }
 };
+
+/// The planes must outlive the view.
+inline DepthView depth_view(const DepthGeometry& geometry, const filter::Surface& surface, ConstPlaneView thickness,
+                            ConstPlaneView depth2, ConstPlaneView thickness2) {
+  const Projection& lens = surface.projection;
+  return {surface.depth,
+          thickness,
+          depth2,
+          thickness2,
+          surface.nx,
+          surface.ny,
+          surface.nz,
+          lens,
+          1 / lens.fx,
+          1 / lens.fy,
+          geometry.border == Border::extend};
+}
 
 }  // namespace aftershade::ao

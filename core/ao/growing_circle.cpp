@@ -6,7 +6,7 @@
 #include "core/ao/growing_circle_kernel.h"
 #include "core/math/sampling.h"
 #include "core/parallel/rows.h"
-#include "core/simd/math.h"
+#include "core/simd/scalar.h"
 
 namespace aftershade::ao {
 
@@ -47,11 +47,9 @@ std::vector<Tap> circle_taps(const GrowingCircleParams& params) {
   std::vector<Tap> taps;
   for (int i = 0; i < params.taps; ++i) {
     const double radius = (i + 0.5) / params.taps;
-    const lanes::SinCos direction = lanes::sincos_turns(static_cast<float>(fraction(i * kGoldenTurns)));
-    float x[lanes::kLanes], y[lanes::kLanes];
-    lanes::store(x, direction.cos);
-    lanes::store(y, direction.sin);
-    taps.push_back({static_cast<float>(params.growth == CircleGrowth::sqrt ? std::sqrt(radius) : radius), x[0], y[0]});
+    const lanes::UnitVector direction = lanes::unit_vector(static_cast<float>(fraction(i * kGoldenTurns)));
+    taps.push_back({static_cast<float>(params.growth == CircleGrowth::sqrt ? std::sqrt(radius) : radius), direction.x,
+                    direction.y});
   }
   return taps;
 }

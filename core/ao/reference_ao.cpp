@@ -2,14 +2,14 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "core/ao/pixel_filter.h"
 #include "core/ao/reference_ao_kernel.h"
-#include "core/ao/slice_ao.h"
 #include "core/ao/thickness.h"
 #include "core/math/sampling.h"
 #include "core/parallel/rows.h"
+#include "core/simd/scalar.h"
 
 namespace aftershade::ao {
 
@@ -41,25 +41,21 @@ namespace {
 std::vector<march::Direction> hemisphere(int rays, RayWeighting weighting) {
   std::vector<march::Direction> out;
   for (int i = 0; i < rays; ++i) {
-    const double u = (i + 0.5) / rays, angle = 2 * std::numbers::pi * i * 0.6180339887498949;
+    const double u = (i + 0.5) / rays, turns = i * 0.6180339887498949;
     const double height = weighting == RayWeighting::cosine ? std::sqrt(1 - u) : 1 - u;
-    const double across = std::sqrt(1 - height * height);
-    out.push_back({static_cast<float>(across * std::cos(angle)), static_cast<float>(across * std::sin(angle)),
-                   static_cast<float>(height)});
+    const auto across = static_cast<float>(std::sqrt(1 - height * height));
+    const lanes::UnitVector azimuth = lanes::unit_vector(static_cast<float>(turns - std::floor(turns)));
+    out.push_back({across * azimuth.x, across * azimuth.y, static_cast<float>(height)});
   }
   return out;
 }
 
 /// Turns of the hemisphere, one of 256 by the pixel's absolute coordinates.
-struct Turns {
-  std::array<float, 256> cosine{}, sine{};
-  Turns() {
-    for (size_t i = 0; i < 256; ++i) {
-      cosine[i] = static_cast<float>(std::cos(std::numbers::pi * static_cast<double>(i) / 128));
-      sine[i] = static_cast<float>(std::sin(std::numbers::pi * static_cast<double>(i) / 128));
-    }
-  }
-};
+std::array<lanes::UnitVector, 256> pixel_turns() {
+  std::array<lanes::UnitVector, 256> out{};
+  for (size_t i = 0; i < out.size(); ++i) out[i] = lanes::unit_vector(static_cast<float>(i) / 256);
+  return out;
+}
 
 }  // namespace
 
@@ -69,12 +65,9 @@ Plane reference_ao(const ReferenceAoParams& params, const filter::Surface& surfa
   const Plane thickness = planar_thickness(params, surface.depth, lens);
   const Plane thickness2 = depth2.empty() ? Plane() : planar_thickness(params, depth2, lens);
   const auto directions = hemisphere(params.rays, params.weighting);
-  const Turns turns;
-  const march::Rays rays{{surface.depth, thickness, depth2, thickness2, surface.nx, surface.ny, surface.nz, lens,
-                          1 / lens.fx, 1 / lens.fy, params.border == Border::extend},
-                         params.radius_m,
-                         params.falloff == RayFalloff::squared,
-                         directions};
+  const auto turns = pixel_turns();
+  const march::Rays rays{depth_view(params, surface, thickness, depth2, thickness2), params.radius_m,
+                         params.falloff == RayFalloff::squared, directions};
   Plane out(grid.width(), grid.height(), 1.0F);
   for_rows(out.height(), [&](int y) {
     for (int x = 0; x < out.width(); ++x) {
@@ -84,7 +77,7 @@ Plane reference_ao(const ReferenceAoParams& params, const filter::Surface& surfa
       const uint32_t turn =
           hash_counters(static_cast<uint32_t>(px + surface.origin_x), static_cast<uint32_t>(py + surface.origin_y)) &
           255;
-      out(x, y) = march::visibility(rays, rays.view.receiver(px, py), turns.cosine[turn], turns.sine[turn]);
+      out(x, y) = march::visibility(rays, rays.view.receiver(px, py), turns[turn].x, turns[turn].y);
     }
   });
   if (!(params.pixel_filter_px > 0)) return out;

@@ -2,13 +2,14 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "core/ao/pixel_filter.h"
 #include "core/ao/slice_ao_kernel.h"
 #include "core/ao/thickness.h"
 #include "core/math/sampling.h"
 #include "core/parallel/rows.h"
+#include "core/simd/scalar.h"
 
 namespace aftershade::ao {
 
@@ -42,8 +43,9 @@ std::vector<slice::Direction> directions(int count, bool per_frame, int frame_nu
   std::vector<slice::Direction> out;
   for (const float shift : kBayer4x4)
     for (int k = 0; k < count; ++k) {
-      const double angle = std::numbers::pi * (k + static_cast<double>(shift) + noise - std::floor(noise)) / count;
-      out.push_back({static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))});
+      const double turns = 0.5 * (k + static_cast<double>(shift) + noise - std::floor(noise)) / count;
+      const lanes::UnitVector direction = lanes::unit_vector(static_cast<float>(turns));
+      out.push_back({direction.x, direction.y});
     }
   return out;
 }
@@ -57,31 +59,6 @@ std::array<float, 16> sample_offsets() {
 
 }  // namespace
 
-Plane pixel_filtered(ConstPlaneView values, ConstPlaneView depth, float deviation) {
-  const int reach = static_cast<int>(std::ceil(3 * deviation));
-  std::vector<float> weights;
-  for (int i = -reach; i <= reach; ++i) {
-    const double t = i / static_cast<double>(deviation);
-    weights.push_back(static_cast<float>(std::exp(-t * t / 2)));
-  }
-  Plane out = copy_of(values);
-  for_rows(out.height(), [&](int y) {
-    for (int x = 0; x < out.width(); ++x) {
-      if (!is_surface(depth(x, y))) continue;
-      float sum = 0, weight = 0;
-      for (int j = std::max(-reach, -y); j <= std::min(reach, out.height() - 1 - y); ++j)
-        for (int i = std::max(-reach, -x); i <= std::min(reach, out.width() - 1 - x); ++i) {
-          if (!is_surface(depth(x + i, y + j))) continue;
-          const float w = weights[static_cast<size_t>(reach + i)] * weights[static_cast<size_t>(reach + j)];
-          sum += w * values(x + i, y + j);
-          weight += w;
-        }
-      out(x, y) = std::min(sum / weight, 1.0F);
-    }
-  });
-  return out;
-}
-
 Plane slice_ao(const SliceAoParams& params, const filter::Surface& surface, const filter::SampleGrid& grid,
                int frame_number, ConstPlaneView depth2) {
   const Projection& lens = surface.projection;
@@ -89,8 +66,7 @@ Plane slice_ao(const SliceAoParams& params, const filter::Surface& surface, cons
   const Plane thickness2 = depth2.empty() ? Plane() : planar_thickness(params, depth2, lens);
   const auto turns = directions(params.slices, params.per_frame_noise, frame_number);
   const auto offsets = sample_offsets();
-  const slice::Slices slices{{surface.depth, thickness, depth2, thickness2, surface.nx, surface.ny, surface.nz, lens,
-                              1 / lens.fx, 1 / lens.fy, params.border == Border::extend},
+  const slice::Slices slices{depth_view(params, surface, thickness, depth2, thickness2),
                              params.radius_m,
                              params.steps,
                              params.slices,

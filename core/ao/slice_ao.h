@@ -29,8 +29,4 @@ struct SliceAoParams : DepthGeometry {
 Plane slice_ao(const SliceAoParams& params, const filter::Surface& surface, const filter::SampleGrid& grid,
                int frame_number, ConstPlaneView depth2 = {});
 
-/// What a renderer's pixel filter does to values at pixel centres: a Gaussian of this standard deviation in texels,
-/// over the surface among them (depth as in filter::Surface). Background stays as it is.
-Plane pixel_filtered(ConstPlaneView values, ConstPlaneView depth, float deviation);
-
 }  // namespace aftershade::ao

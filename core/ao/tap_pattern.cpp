@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/simd/math.h"
+#include "core/simd/scalar.h"
 
 namespace aftershade::ao {
 
@@ -19,11 +19,8 @@ std::vector<Tap> spiral(int taps, double circle) {
   std::vector<Tap> out;
   for (int i = 0; i < taps; ++i) {
     const double angle = circle * fraction(alpha(i, taps) * turns);
-    const lanes::SinCos direction = lanes::sincos_turns(static_cast<float>(angle));
-    float x[lanes::kLanes], y[lanes::kLanes];
-    lanes::store(x, direction.cos);
-    lanes::store(y, direction.sin);
-    out.push_back({static_cast<float>(alpha(i, taps)), x[0], y[0]});
+    const lanes::UnitVector direction = lanes::unit_vector(static_cast<float>(angle));
+    out.push_back({static_cast<float>(alpha(i, taps)), direction.x, direction.y});
   }
   return out;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/ao/depth_view.h"
 #include "core/parallel/rows.h"
 
 namespace aftershade::ao {
@@ -13,8 +14,6 @@ namespace {
 constexpr float kInf = std::numeric_limits<float>::infinity();
 /// Two neighbours belong to one surface up to a gap of so many pixel footprints (ours).
 constexpr float kGapFootprints = 3;
-
-bool is_surface(float z) { return std::isfinite(z) && z > 0; }
 
 /// Pixels (x + i dx, y + i dy) of one line through the image.
 struct Line {
