@@ -134,7 +134,8 @@ bool has_channel(const io::FileInfo& info, const std::string& view, const std::s
 Job resolve_job(const RenderArgs& args) {
   Job job;
   job.preset = resolve_preset(args);
-  const std::vector<std::string> channels = pipeline::named_channels(job.preset.preset);
+  std::vector<std::string> channels;
+  if (!args.ao_only) channels = pipeline::named_channels(job.preset.preset);
   job.input = open_input(args, channels);
   job.preroll = preroll_of(args.preroll);
   job.written = job.input.frames;

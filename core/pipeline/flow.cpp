@@ -29,43 +29,65 @@ void ViewPipeline::push(Frame frame, std::optional<Frame> previous, const Planne
   advance(std::make_unique<Item>(std::move(frame), std::move(previous), planned, outputs_.work), 0);
 }
 
-void ViewPipeline::flush() {
-  for (size_t i = 0; i < stages_.size(); ++i)
+void ViewPipeline::flush() { settle(0); }
+
+void ViewPipeline::settle(size_t first) {
+  for (size_t i = first; i < stages_.size(); ++i)
     while (!stages_[i].waiting.empty()) release(i);
-  for (Entry& entry : stages_) entry.stage->restart();
+  for (size_t i = first; i < stages_.size(); ++i) stages_[i].stage->restart();
 }
 
-void ViewPipeline::run_stage(Entry& entry, Item& item) {
+bool ViewPipeline::attempt(Item& item, size_t blind, const std::function<void()>& work) {
+  try {
+    with_context(cat("frame ", item.work.frame.number), [&] {
+      try {
+        work();
+      } catch (const std::bad_alloc&) {
+        throw Error(ErrorCode::memory, "out of memory", "fewer --threads need less");
+      }
+    });
+    return true;
+  } catch (const Error& error) {
+    item.error = error;
+  }
+  settle(blind);
+  finish(item);
+  return false;
+}
+
+bool ViewPipeline::run_stage(size_t stage, Item& item) {
+  Entry& entry = stages_[stage];
   const auto start = std::chrono::steady_clock::now();
-  with_context(cat("frame ", item.work.frame.number), [&] {
-    try {
-      entry.stage->run(item.work);
-    } catch (const std::bad_alloc&) {
-      throw Error(ErrorCode::memory, "out of memory", "fewer --threads need less");
-    }
-  });
+  const size_t blind = entry.needs.has_window() ? stage + 1 : stage;  // a window has seen the frame already
+  const bool ok = attempt(item, blind, [&] { entry.stage->run(item.work); });
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-  item.times.push_back({entry.id, time.count()});
+  if (ok) item.times.push_back({entry.id, time.count()});
+  return ok;
 }
 
 void ViewPipeline::advance(ItemPtr item, size_t first) {
   for (size_t i = first; sees(i, item->through); ++i) {
     Entry& entry = stages_[i];
-    if (!entry.needs.has_window()) {
-      run_stage(entry, *item);
-      continue;
+    if (entry.needs.has_window()) {
+      halt(std::move(item), i);
+      return;
     }
-    entry.stage->observe(item->work);
-    const int newest = item->work.frame.number;
-    if (i < item->through)
-      entry.waiting.push_back(std::move(item));
-    else
-      finish(*item);
-    while (!entry.waiting.empty() && entry.waiting.front()->work.frame.number + entry.needs.frames_after <= newest)
-      release(i);
-    return;
+    if (!run_stage(i, *item)) return;
   }
   finish(*item);
+}
+
+/// The frame is shown to the stage, and waits there if it is to be run; those that waited for it go on.
+void ViewPipeline::halt(ItemPtr item, size_t stage) {
+  Entry& entry = stages_[stage];
+  if (!attempt(*item, stage, [&] { entry.stage->observe(item->work); })) return;
+  const int newest = item->work.frame.number;
+  if (stage < item->through)
+    entry.waiting.push_back(std::move(item));
+  else
+    finish(*item);
+  while (!entry.waiting.empty() && entry.waiting.front()->work.frame.number + entry.needs.frames_after <= newest)
+    release(stage);
 }
 
 /// The frame that has waited longest goes on.
@@ -73,14 +95,14 @@ void ViewPipeline::release(size_t stage) {
   Entry& entry = stages_[stage];
   ItemPtr item = std::move(entry.waiting.front());
   entry.waiting.pop_front();
-  run_stage(entry, *item);
-  advance(std::move(item), stage + 1);
+  if (run_stage(stage, *item)) advance(std::move(item), stage + 1);
 }
 
 void ViewPipeline::finish(Item& item) {
-  if (outputs_.ao_channel && item.written) item.frame.added[*outputs_.ao_channel] = clamped(std::move(item.work.ao));
+  if (outputs_.ao_channel && item.written && !item.error)
+    item.frame.added[*outputs_.ao_channel] = clamped(std::move(item.work.ao));
   FrameReport report{std::move(item.work.notes), std::move(item.work.warnings), std::move(item.times)};
-  finished_.push_back({std::move(item.frame), item.written, std::move(report)});
+  finished_.push_back({std::move(item.frame), item.written, std::move(report), std::move(item.error)});
 }
 
 }  // namespace aftershade::pipeline

@@ -17,6 +17,7 @@ struct ViewPipeline::Item {
   size_t through;
   bool written;
   std::vector<FrameReport::StageTime> times;
+  std::optional<Error> error;
 };
 
 }  // namespace aftershade::pipeline

@@ -66,7 +66,7 @@ ViewPipeline::ViewPipeline(const preset::Preset& preset, std::string view, const
   for (const preset::StageDescription& description : preset.stages) {
     Entry entry{description.id, make_stage(description.params), {}, {}};
     entry.needs = entry.stage->needs(offer);
-    if (entry.needs.layers && !outputs.layers) continue;
+    if (!outputs.layers && (entry.needs.layers || !entry.needs.channels.empty())) continue;
     check_needs(entry.id, preset::method_of(description.params), entry.needs, offer);
     check_order(entry.id, entry.needs, made);
     made.add(entry.needs);

@@ -17,7 +17,8 @@ namespace aftershade::pipeline {
 /// What a run adds to the files besides the changed layers.
 struct Outputs {
   std::optional<std::string> ao_channel;  ///< name of the channel that receives the AO
-  bool layers = true;  ///< false: only added channels are wanted, stages that change layers are left out
+  /// False: only added channels are wanted; stages that change layers or named channels are left out.
+  bool layers = true;
   WorkOptions work;
 };
 
@@ -31,15 +32,17 @@ struct FrameReport {
   std::vector<StageTime> times;
 };
 
-/// A frame that has gone through all the stages it was planned for.
+/// A frame that has gone through all the stages it was planned for, or up to the one that failed.
 struct FinishedFrame {
   Frame frame;
   bool written;
   FrameReport report;
+  std::optional<Error> error;  ///< names the frame
 };
 
 /// The stages of a preset at work on one view, frame after frame. A stage that looks ahead holds frames back until it
-/// has seen their neighbours, so frames come out later than they go in, in the same order.
+/// has seen their neighbours, so frames come out later than they go in; those to be written in the same order, except
+/// that one that fails comes out at once.
 class ViewPipeline {
  public:
   /// Checks every stage's needs against what the view offers. Throws Error(no_input) naming stage and role that is
@@ -53,11 +56,12 @@ class ViewPipeline {
   bool layers(size_t through) const;             ///< does it need its layers?
   RoleSet previous_roles() const;                ///< to load of the frame before it
 
-  /// Feeds the next frame. A failing stage's Error names its frame, which is lost; all others are still there.
+  /// Feeds the next frame. A failing stage's Error is in its FinishedFrame; no history and no window of a stage that
+  /// the frame does not reach extends over it, all others are as without the failure.
   void push(Frame frame, std::optional<Frame> previous, const PlannedFrame& planned);
-  /// Nothing follows: completes the frames that wait, and forgets all history. After an Error, the rest still wait.
+  /// Nothing follows: completes the frames that wait, and forgets all history.
   void flush();
-  /// The frames completed since the last call, in order.
+  /// The frames completed since the last call.
   std::vector<FinishedFrame> take_finished() { return std::exchange(finished_, {}); }
 
  private:
@@ -70,8 +74,13 @@ class ViewPipeline {
     std::deque<ItemPtr> waiting;  ///< seen by the stage, which has not run on them yet
   };
   bool sees(size_t stage, size_t through) const;
-  void run_stage(Entry& entry, Item& item);
+  /// Completes the frames that wait at stage `first` or later, and forgets these stages' history.
+  void settle(size_t first);
+  /// A failure ends the frame's way: the stages from `blind` on never see it. False then.
+  bool attempt(Item& item, size_t blind, const std::function<void()>& work);
+  bool run_stage(size_t stage, Item& item);
   void advance(ItemPtr item, size_t first);
+  void halt(ItemPtr item, size_t stage);
   void release(size_t stage);
   void finish(Item& item);
 

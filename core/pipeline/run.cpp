@@ -17,41 +17,31 @@ class Run {
 
   size_t go() {
     const ViewPipeline& any = views_.front();  // all views have the same stages
+    bool follows = true;
     for (PlannedFrame planned :
          plan(options_.written, options_.on_disk, any.stages(), any.dependencies(), options_.preroll)) {
       if (options_.should_stop && options_.should_stop()) return done_;
-      planned.restarts = planned.restarts || broken_;
-      if (planned.restarts) flush();
-      attempt([&] { visit(planned); });
+      planned.restarts = planned.restarts || !follows;
+      follows = attempt([&] { visit(planned); });
+      write_finished();
     }
-    flush();
+    for (ViewPipeline& view : views_) view.flush();
+    write_finished();
     return done_;
   }
 
  private:
-  /// A failure is this frame's; with keep_going the run goes on, but no history and no window reaches over it.
+  /// With keep_going a failure is reported and costs its frame alone.
   template <class Work>
   bool attempt(Work&& work) {
-    bool ok = true;
     try {
       work();
+      return true;
     } catch (const Error& error) {
       if (!options_.keep_going) throw;
-      ok = false;
-      broken_ = true;
       if (options_.on_error) options_.on_error(error);
+      return false;
     }
-    return ok;
-  }
-
-  void flush() {
-    for (ViewPipeline& view : views_)
-      while (!attempt([&] { view.flush(); })) {
-      }
-    broken_ = false;
-    while (!attempt([&] { write_finished(); })) {
-    }
-    pending_.clear();  // what is left has failed in another view
   }
 
   /// Memory that runs out while a frame is read is its failure, like any other.
@@ -63,16 +53,23 @@ class Run {
     }
   }
 
+  /// Nothing of a frame that cannot be read goes on its way.
   void visit(const PlannedFrame& planned) {
-    for (ViewPipeline& view : views_) {
+    struct Loaded {
+      Frame frame;
+      std::optional<Frame> previous;
+    };
+    std::vector<Loaded> loaded;
+    for (const ViewPipeline& view : views_) {
       auto frame = load(planned.number, view.view(), view.roles(planned.through), view.layers(planned.through));
       if (!frame) throw Error(ErrorCode::no_input, cat("frame ", planned.number, " is missing"));
       std::optional<Frame> previous;
       if (!planned.restarts && !view.previous_roles().empty())
         previous = load(planned.number - 1, view.view(), view.previous_roles(), false);
-      view.push(std::move(*frame), std::move(previous), planned);
+      loaded.push_back({std::move(*frame), std::move(previous)});
     }
-    write_finished();
+    for (size_t i = 0; i < views_.size(); ++i)
+      views_[i].push(std::move(loaded[i].frame), std::move(loaded[i].previous), planned);
   }
 
   /// A frame is written once all its views are finished. Source and sink name the frame in their own errors.
@@ -82,7 +79,7 @@ class Run {
         pending_[finished.frame.number].push_back(std::move(finished));
     while (!pending_.empty() && pending_.begin()->second.size() == views_.size()) {
       auto node = pending_.extract(pending_.begin());
-      write(node.key(), std::move(node.mapped()));
+      attempt([&] { write(node.key(), std::move(node.mapped())); });
     }
   }
 
@@ -90,6 +87,7 @@ class Run {
     Progress progress{number, views.front().written, done_, options_.written.size(), 0, {}};
     std::vector<Frame> frames;
     for (FinishedFrame& view : views) {
+      if (view.error) throw Error(*view.error);
       frames.push_back(std::move(view.frame));
       progress.reports.push_back(std::move(view.report));
     }
@@ -109,7 +107,6 @@ class Run {
   const RunOptions& options_;
   std::map<int, std::vector<FinishedFrame>> pending_;
   size_t done_ = 0;
-  bool broken_ = false;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 

@@ -67,6 +67,11 @@ TEST(NamedChannels, NeedNeitherAoNorLayers) {
   EXPECT_THROW(ViewPipeline({"p", "", {{"blur", blur_of("")}}}, "", kDepthAndLens, {}), Error) << "the AO's blur does";
 }
 
+TEST(NamedChannels, AreLeftOutWhereOnlyAddedChannelsAreWanted) {
+  ViewPipeline view({"p", "", {{"blur", blur_of("shadow")}}}, "", {}, {{}, false, {}});
+  EXPECT_EQ(view.stages(), 0U);
+}
+
 TEST(NamedChannels, TheBlurOfOneIsTheFilterAtEveryPixel) {
   Frame source = shadow_frame(1);
   const Frame out = processed({"p", "", {{"blur", blur_of("shadow")}}}, shadow_frame(1));
