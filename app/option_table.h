@@ -62,8 +62,10 @@ void bind(CLI::App& command, const std::vector<Option<Args>>& table, Args& args)
         return command.add_flag(option.names, target);
       } else {
         CLI::Option* added = command.add_option(option.names, target);
-        if constexpr (std::is_same_v<Target, std::vector<std::string>>)
-          added->expected(1)->take_all()->allow_extra_args(false);  // what follows its value is not its own
+        if constexpr (std::is_same_v<Target, std::vector<std::string>>) {
+          // What follows an option's value is not the option's.
+          added->expected(1)->take_all()->allow_extra_args(!option.names.starts_with('-'));
+        }
         return added;
       }
     };
