@@ -57,14 +57,15 @@ struct WindowRow {
   float *out_ao, *out_weight;
 };
 
-/// Mean of S over frames f-1 to f+1.
+/// Mean of S over frames f-1 to f+1; frame f's own, 0, where one of its neighbours does not see the surface: a mean
+/// over one side would lean towards it.
 inline float change_reference(const WindowRow& row, int x) {
   float sum = 0, weight = 1;
-  for (const auto* side : {&row.before, &row.after})
-    if (!side->empty()) {
-      sum += side->front().weight[x] * side->front().change[x];
-      weight += side->front().weight[x];
-    }
+  for (const auto* side : {&row.before, &row.after}) {
+    if (side->empty() || !(side->front().weight[x] > 0)) return 0;
+    sum += side->front().weight[x] * side->front().change[x];
+    weight += side->front().weight[x];
+  }
   return sum / weight;
 }
 
@@ -111,11 +112,17 @@ inline void window_row(const WindowRow& row) {
     for (size_t d = 0; d < furthest; ++d) {
       const WindowTap* pair[2] = {d < before ? &row.before[d] : nullptr, d < after ? &row.after[d] : nullptr};
       const bool both = pair[0] != nullptr && pair[1] != nullptr && pair[0]->weight[x] > 0 && pair[1]->weight[x] > 0;
-      const float together = tested && both ? trust((pair[0]->change[x] + pair[1]->change[x]) / 2, 0.5F) : 0;
+      // Near moving surfaces the two of a pair stay or go together, so that an even change cancels; one alone cannot be
+      // told from a lag, and has no noise to hide behind.
+      const auto pair_trust = [&] {
+        const float before_s = pair[0]->change[x], after_s = pair[1]->change[x];
+        return std::max(std::min(trust(before_s, 1), trust(after_s, 1)), trust((before_s + after_s) / 2, 0.5F));
+      };
+      const float of_pair = tested && both ? pair_trust() : 0;
       for (const WindowTap* tap : pair) {
         if (tap == nullptr || !(tap->weight[x] > 0)) continue;
         float w = tap->window * tap->weight[x];
-        if (tested) w *= 1 - tap->tested[x] * (1 - std::max(trust(tap->change[x], 1), together));
+        if (tested) w *= 1 - tap->tested[x] * (1 - (both ? of_pair : trust(tap->change[x], 0)));
         sum += w * tap->difference[x];
         weights += w;
       }

@@ -38,7 +38,7 @@ class Twin {
       const Fetched& f = pixels[index(i, j)];
       if (!(f.weight > 0)) continue;
       double w = window_weight(std::abs(d), params_.frames) * f.weight;
-      if (params_.change_test == ChangeTest::everywhere) w *= std::max(trust(i, j, d), trust_of_pair(i, j, d));
+      if (params_.change_test == ChangeTest::everywhere) w *= trust_of_pair(i, j, d);
       sum += w * f.difference;
       weights += w;
     }
@@ -187,6 +187,7 @@ class Twin {
   double trusted(int i, int j, double change, double share) const {
     double reference = 0, weights = 1;
     for (int d : {-1, 1}) {
+      if (!seen(i, j, -1) || !seen(i, j, 1)) break;
       reference += differences_.at(d)[index(i, j)].weight * mean_change(i, j, d);
       weights += differences_.at(d)[index(i, j)].weight;
     }
@@ -196,8 +197,9 @@ class Twin {
   }
   double trust(int i, int j, int d) const { return trusted(i, j, mean_change(i, j, d), 1); }
   double trust_of_pair(int i, int j, int d) const {
-    if (!seen(i, j, d) || !seen(i, j, -d)) return 0;
-    return trusted(i, j, (mean_change(i, j, d) + mean_change(i, j, -d)) / 2, 0.5);
+    if (!seen(i, j, -d)) return trusted(i, j, mean_change(i, j, d), 0);
+    return std::max(std::min(trust(i, j, d), trust(i, j, -d)),
+                    trusted(i, j, (mean_change(i, j, d) + mean_change(i, j, -d)) / 2, 0.5));
   }
 
   TemporalWindowParams params_;

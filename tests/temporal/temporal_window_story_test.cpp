@@ -140,6 +140,7 @@ TEST(WindowStory, AnAoThatChangesEvenlyKeepsItsWholeWindow) {
   }
   TemporalWindowParams params;
   params.change_test = ChangeTest::everywhere;
+  params.frames = 7;
   const WindowedAo got = windowed(params, frames, 7);
   EXPECT_NEAR(got.ao(30, 20), 0.2 + 0.03 * 7, 1e-6);
   EXPECT_NEAR(got.weight(30, 20), 1, 1e-4);
@@ -156,6 +157,7 @@ TEST(WindowStory, AMovingCardIsFollowed) {
         if (Card{2.25 * f}.covers(x, y)) frames[static_cast<size_t>(f)].ao(x, y) = f % 2 == 0 ? 0.5F : 0.6F;
   TemporalWindowParams params;
   params.change_test = ChangeTest::never;
+  params.frames = 7;
   const WindowedAo got = windowed(params, frames, 10);
   double even = 0, all = 0;
   for (int d = -7; d <= 7; ++d) {
