@@ -7,19 +7,26 @@
 /// Slices with exact interval visibility. Plain scalar code: lists of intervals resist lanes.
 namespace aftershade::ao::slice {
 
-/// acos(x) for x in [-1, 1]; absolute error below 5e-7 (Abramowitz and Stegun 4.4.46, in float).
-inline float arc_cosine(float x) {
+/// The angle of (x, y) from the x axis in [0, pi], for y >= 0 and not both 0; absolute error below 5e-7, relative error
+/// below 5e-7 near 0. Reduced to |t| <= tan(pi/8) by atan(t) = pi/4 + atan((t - 1) / (t + 1)); there atan(t) =
+/// t + t^3 p(t^2), p a Chebyshev fit.
+inline float angle_of(float x, float y) {
+  constexpr float kPi = 3.14159265F, kTanEighth = 0.41421356F;
   const float a = std::fabs(x);
-  float p = -0.0012624911F;
-  p = p * a + 0.0066700901F;
-  p = p * a - 0.0170881256F;
-  p = p * a + 0.0308918810F;
-  p = p * a - 0.0501743046F;
-  p = p * a + 0.0889789874F;
-  p = p * a - 0.2145988016F;
-  p = p * a + 1.5707963050F;
-  const float r = p * std::sqrt(std::max(1 - a, 0.0F));
-  return x < 0 ? 3.14159265F - r : r;
+  const bool steep = y > a;
+  float t = steep ? a / y : y / a, offset = 0;
+  if (t > kTanEighth) {
+    t = (t - 1) / (t + 1);
+    offset = kPi / 4;
+  }
+  const float z = t * t;
+  float p = 8.52979248e-2F;
+  p = p * z - 1.40265502e-1F;
+  p = p * z + 1.99913941e-1F;
+  p = p * z - 3.33332881e-1F;
+  float angle = offset + (t + t * z * p);
+  if (steep) angle = kPi / 2 - angle;
+  return x < 0 ? kPi - angle : angle;
 }
 
 /// Elevations are kept as t = -cot(theta), which grows with the angle theta from the view vector.
@@ -48,10 +55,10 @@ inline void unite(std::vector<Interval>& list, Interval added) {
 /// One side of a slice: gamma is the angle of the projected normal, positive towards this side, at most a right angle.
 struct Arc {
   float sin_gamma, cos_gamma;
-  /// Int_0^theta cos(t - gamma) sin t dt = (cos g + 2 theta sin g - cos(2 theta - g)) / 4   (algorithms 9.1)
+  /// Int_0^theta cos(t - gamma) sin t dt = (cos g + 2 theta sin g - cos(2 theta - g)) / 4   (algorithms 9.1), as
+  /// (sin^2 theta cos g + (theta - sin theta cos theta) sin g) / 2, in which nothing large cancels.
   float up_to(float cos, float sin) const {
-    const float double_angle = (cos * cos - sin * sin) * cos_gamma + 2 * sin * cos * sin_gamma;
-    return 0.25F * (cos_gamma + 2 * arc_cosine(cos) * sin_gamma - double_angle);
+    return 0.5F * (sin * sin * cos_gamma + (angle_of(cos, sin) - sin * cos) * sin_gamma);
   }
   float operator()(float t) const {
     const float sin = 1 / std::sqrt(1 + t * t);

@@ -327,10 +327,14 @@ TEST(IntervalUnion, CoversWhatABitmaskCovers) {
   }
 }
 
-TEST(SliceArc, MatchesQuadratureAndItsArcCosineTheLibrary) {
+TEST(SliceArc, MatchesQuadratureAndItsAngleTheLibrary) {
   for (int i = -2000; i <= 2000; ++i) {
     const float x = static_cast<float>(i) / 2000;
-    ASSERT_NEAR(static_cast<double>(ao::slice::arc_cosine(x)), std::acos(static_cast<double>(x)), 5e-7) << x;
+    for (const float y : {1e-3F, 0.2F, 1.0F}) {
+      const double angle = std::atan2(static_cast<double>(y), static_cast<double>(x));
+      ASSERT_NEAR(static_cast<double>(ao::slice::angle_of(x, y)), angle, 5e-7) << x << ' ' << y;
+      ASSERT_NEAR(static_cast<double>(ao::slice::angle_of(1, y * 1e-3F)), static_cast<double>(y) * 1e-3, 5e-10);
+    }
   }
   for (const double gamma : {-1.2, -0.3, 0.0, 0.7, 1.5}) {
     const ao::slice::Arc arc{static_cast<float>(std::sin(gamma)), static_cast<float>(std::cos(gamma))};
