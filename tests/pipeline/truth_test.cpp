@@ -121,5 +121,16 @@ TEST_F(Yard, AoResemblesTheRayTracedOne) {
   }
 }
 
+/// The best seed preset on these frames is soma, with RMSE 0.10; XeGTAO tuned to them has 0.110 and correlation 0.864.
+TEST_F(Yard, OfflineAoIsCloserToTheRayTracedOneThanAnyRealTimePreset) {
+  const tests::AoScore offline = tests::yard_score(tests::ao_part("offline"));
+  const tests::AoScore soma = tests::yard_score(tests::ao_part("soma"));
+  std::cout << "yard, offline: RMSE " << offline.rmse << ", bias " << offline.bias << ", correlation "
+            << offline.correlation << "; soma: RMSE " << soma.rmse << " (mean of 12 frames)\n";
+  EXPECT_LT(offline.rmse, 0.065);
+  EXPECT_GT(offline.correlation, 0.95);
+  EXPECT_LT(offline.rmse, 0.8 * soma.rmse);
+}
+
 }  // namespace
 }  // namespace aftershade::pipeline
