@@ -62,9 +62,10 @@ class TableBuilder {
         [member](void* s, const Json& v) { static_cast<S*>(s)->*member = v.get<std::string>(); });
   }
   /// An enum; `names[i]` is the JSON spelling of static_cast<E>(i).
-  template <class E>
-  requires std::is_enum_v<E> TableBuilder& add(std::string_view key, E S::*member, std::vector<std::string> names,
-                                               std::string_view doc) {
+  template <class E, class Base>
+  requires std::is_enum_v<E> && std::is_base_of_v<Base, S> TableBuilder& add(std::string_view key, E Base::*member,
+                                                                             std::vector<std::string> names,
+                                                                             std::string_view doc) {
     return add(
         key, Kind::choice, {}, names, doc,
         [member, names](const void* s) {
