@@ -26,4 +26,8 @@ HalfVelocity half_velocity(ConstPlaneView prev_x, ConstPlaneView prev_y, ConstPl
   return out;
 }
 
+HalfVelocity half_velocity(const Motion& motion, float shutter_frames, float max_radius) {
+  return half_velocity(motion.prev_x, motion.prev_y, motion.next_x, motion.next_y, shutter_frames, max_radius);
+}
+
 }  // namespace aftershade::motionblur

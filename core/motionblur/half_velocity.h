@@ -1,5 +1,6 @@
 #pragma once
 #include "core/image/plane.h"
+#include "core/motionblur/motion.h"
 
 namespace aftershade::motionblur {
 
@@ -14,5 +15,8 @@ struct HalfVelocity {
 /// needs a radius.
 HalfVelocity half_velocity(ConstPlaneView prev_x, ConstPlaneView prev_y, ConstPlaneView next_x, ConstPlaneView next_y,
                            float shutter_frames, float max_radius);
+
+/// The same of motion in which all vectors are known.
+HalfVelocity half_velocity(const Motion& motion, float shutter_frames, float max_radius);
 
 }  // namespace aftershade::motionblur

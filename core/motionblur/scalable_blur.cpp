@@ -12,12 +12,9 @@ namespace aftershade::motionblur {
 
 const params::Table& ScalableBlurParams::table() {
   using P = ScalableBlurParams;
+  params::TableBuilder<P> builder;
   static const params::Table table =
-      params::TableBuilder<P>()
-          .add("shutter_frames", &P::shutter_frames, {0, 8},
-               "Exposure as a share of the frame interval, centred on the frame: 0.5 is a 180 degree shutter.")
-          .add("shutter_from_header", &P::shutter_from_header,
-               "Use the header's shutterAngle / 360 instead of shutter_frames, where the file has one.")
+      add_motion(builder)
           .add("taps", &P::taps, {3, 999},
                "Samples per pixel with the centre; an even number counts as the next odd one, more give a smoother "
                "blur.")

@@ -5,6 +5,7 @@
 #include "core/image/plane.h"
 #include "core/image/window.h"
 #include "core/motionblur/half_velocity.h"
+#include "core/motionblur/motion.h"
 #include "core/motionblur/tile_max.h"
 #include "core/params/table.h"
 
@@ -15,19 +16,18 @@ enum class Directions { neighbourhood, alternate };
 
 /// Vicarious Visions' scalable motion blur (seed 004), the gather of McGuire et al. 2012 with alternating directions.
 /// Velocities are half-exposure vectors in pixels, clamped to K; tiles are K x K; neighbour max is 3x3 tiles.
-/// Per tap at distance d, with f and b the soft depth comparison over `soft_depth_extent_m`:
+/// The shutter is centred on the frame. Per tap at distance d, with f and b the soft depth comparison over
+/// `soft_depth_extent_m`:
 ///   weight = b (1 - d/|v_C|) + f (1 - d/|v_S|) + [|v_S| >= d and |v_C| >= d]     slides "Background / Foreground /
 ///   Mutually Blurry"
 /// each term with its tunable weight; the sum of colours is divided by the sum of weights. Alternation keeps the length
 /// of v_N and takes v_C only as a direction, and only if |v_C| >= 1.5 px (algorithms 2.4: taken literally it is
 /// degenerate). Taps outside the image are dropped with their weight. RGBA together, premultiplied, scene-linear.
-struct ScalableBlurParams {
+struct ScalableBlurParams : MotionParams {
   static constexpr std::string_view method = "scalable-motion-blur";
   static constexpr std::string_view summary = "Vicarious Visions' scalable motion blur (SIGGRAPH 2012)";
-  float shutter_frames = 0.5F;       ///< exposure as a share of the frame interval, centred on the frame
-  bool shutter_from_header = false;  ///< use the header's shutterAngle / 360 where there is one
-  int taps = 9;                      ///< with the centre; odd
-  float max_radius_px = 18;          ///< K at the reference height, rounded up
+  int taps = 9;              ///< with the centre; odd
+  float max_radius_px = 18;  ///< K at the reference height, rounded up
   float reference_height_px = 1080;
   Jitter jitter = Jitter::random4x4;
   Directions directions = Directions::alternate;

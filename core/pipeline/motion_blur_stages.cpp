@@ -1,113 +1,36 @@
+#include <algorithm>
 #include <cmath>
 
-#include "core/base/text.h"
 #include "core/motionblur/tile_max.h"
-#include "core/pipeline/stage.h"
+#include "core/pipeline/blur_stage.h"
 
 namespace aftershade::pipeline {
 
 namespace {
 
-/// Share of the light below which nobody needs to hear of its loss.
-constexpr double kWorthSaying = 1e-3;
-
-Window expanded(Window w, int reach) { return {w.min_x - reach, w.min_y - reach, w.max_x + reach, w.max_y + reach}; }
-
-/// The longest vector, rounded up to whole pixels.
-int reach_px(const motionblur::HalfVelocity& velocity) {
-  double longest = 0;
-  for (int y = 0; y < velocity.x.height(); ++y)
-    for (int x = 0; x < velocity.x.width(); ++x) {
-      const double vx = velocity.x(x, y), vy = velocity.y(x, y);
-      longest = std::max(longest, vx * vx + vy * vy);
-    }
-  return static_cast<int>(std::ceil(std::sqrt(longest)));
-}
-
-/// Sum of |value| of the first three planes inside `inner` and everywhere.
-struct Light {
-  double inside = 0, all = 0;
-};
-Light light_of(const Layer& layer, Window window, Window inner) {
-  Light light;
-  for (size_t c = 0; c < layer.planes.size() && c < 3; ++c)
-    for (int y = 0; y < window.height(); ++y)
-      for (int x = 0; x < window.width(); ++x) {
-        const double value = std::abs(layer.planes[c](x, y));
-        if (!std::isfinite(value)) continue;
-        light.all += value;
-        if (inner.contains(x + window.min_x, y + window.min_y)) light.inside += value;
-      }
-  return light;
-}
-
-class ScalableBlur final : public Stage {
+class ScalableBlur final : public BlurStage {
  public:
-  explicit ScalableBlur(const motionblur::ScalableBlurParams& params) : params_(params) {}
-
-  Needs needs(const Offer&) const override {
-    Needs needs;
-    needs.any_of = {Role::velocity_next, Role::velocity_prev};
-    needs.optional = {Role::depth};
-    needs.layers = needs.window = true;
-    return needs;
-  }
-
-  void run(Work& work) override {
-    Frame& frame = work.frame;
-    const int radius = motionblur::max_radius_px(params_, frame.display.height());
-    motionblur::HalfVelocity velocity = half_velocity(work, static_cast<float>(radius));
-    const int reach = reach_px(velocity);
-    const Window widest = united(frame.display, frame.window);  // blur may fill the picture, not leave it
-    const Window window = intersection(expanded(frame.window, reach), widest);
-    if (window != frame.window) {
-      work.change_window(window);
-      velocity = half_velocity(work, static_cast<float>(radius));
-    }
-    const motionblur::BlurInput input{frame.has(Role::depth) ? ConstPlaneView(frame.depth()) : ConstPlaneView(),
-                                      &velocity, frame.window, frame.display.height()};
-    motionblur::HalfVelocity tiles;
-    for (Layer& layer : frame.layers) {
-      if (!layer.receives_blur) continue;
-      blur(layer, input, work.options.diagnostics ? &tiles : nullptr);
-      if (work.options.grow_data_window)
-        layer.data_window = intersection(expanded(layer.data_window, reach), widest);
-      else
-        warn_of_lost_light(work, layer);
-    }
-    if (work.options.diagnostics) add_tiles(frame, tiles, radius);
-  }
+  explicit ScalableBlur(const motionblur::ScalableBlurParams& params) : BlurStage(params), params_(params) {}
 
  private:
-  void blur(Layer& layer, const motionblur::BlurInput& input, motionblur::HalfVelocity* tiles) const {
-    std::vector<Plane*> channels;
-    for (Plane& plane : layer.planes) channels.push_back(&plane);
-    motionblur::scalable_motion_blur(params_, input, channels, tiles);
-    layer.changed = true;
+  int radius_px(const BlurScene& scene) const { return motionblur::max_radius_px(params_, scene.display.height()); }
+
+  int reach_px(const BlurScene& scene) const override {
+    const float half = 0.5F * scene.shutter_frames;
+    const float longest = motionblur::longest_displacement_px(scene.motion, {-half, half}, motionblur::Path::straight);
+    return static_cast<int>(std::ceil(std::min(longest, static_cast<float>(radius_px(scene)))));
   }
 
-  static void warn_of_lost_light(Work& work, const Layer& layer) {
-    const Light light = light_of(layer, work.frame.window, layer.data_window);
-    const double lost = light.all > 0 ? 1 - light.inside / light.all : 0;
-    if (lost > kWorthSaying)
-      work.warn(cat("the data window cuts off ", fixed(100 * lost, 2),
-                    " % of the blurred light; --data-window grow keeps it"));
-  }
-
-  motionblur::HalfVelocity half_velocity(Work& work, float radius) const {
-    const auto plane = [&](Role role, size_t i) {
-      return work.frame.has(role) ? ConstPlaneView(work.frame.planes(role)[i]) : ConstPlaneView();
-    };
-    return motionblur::half_velocity(plane(Role::velocity_prev, 0), plane(Role::velocity_prev, 1),
-                                     plane(Role::velocity_next, 0), plane(Role::velocity_next, 1), shutter_frames(work),
-                                     radius);
-  }
-
-  float shutter_frames(Work& work) const {
-    if (!params_.shutter_from_header) return params_.shutter_frames;
-    if (work.frame.shutter_angle_deg) return *work.frame.shutter_angle_deg / 360.0F;
-    work.note(cat("no shutterAngle in the header: the shutter is ", params_.shutter_frames, " frames"));
-    return params_.shutter_frames;
+  void blur(Work& work, const BlurScene& scene, std::span<Layer* const> layers) override {
+    const int radius = radius_px(scene);
+    const motionblur::HalfVelocity velocity =
+        motionblur::half_velocity(scene.motion, scene.shutter_frames, static_cast<float>(radius));
+    const motionblur::BlurInput input{scene.depth, &velocity, scene.window, scene.display.height()};
+    motionblur::HalfVelocity tiles;
+    for (Layer* layer : layers)
+      motionblur::scalable_motion_blur(params_, input, channels_of(*layer),
+                                       work.options.diagnostics ? &tiles : nullptr);
+    if (work.options.diagnostics) add_tiles(work.frame, tiles, radius);
   }
 
   /// The neighbourhood's velocity at every pixel.

@@ -17,10 +17,12 @@ struct Offer {
 struct Needs {
   RoleSet required;                   ///< roles without which the stage cannot run
   RoleSet any_of;                     ///< at least one of these (empty: no such demand)
+  std::string or_else;                ///< what would do instead of any_of and is not there either, for the error
   RoleSet optional;                   ///< roles it uses if they are there
   RoleSet previous;                   ///< roles it reads of frame f-1
   bool lens = false;                  ///< needs to know the field of view
   bool position = false;              ///< needs to know where the camera stands
+  std::string without_position;       ///< "key=value" of this stage that takes this need away, for the error
   bool ao = false;                    ///< works on AO made by an earlier stage ...
   bool ao_at_pixels = false;          ///< ... which must be at full resolution by then
   bool grid = false;                  ///< ... and looks at the pixels that it was evaluated at

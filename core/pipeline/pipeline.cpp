@@ -18,7 +18,9 @@ namespace {
 void check_needs(const std::string& id, std::string_view method, const Needs& needs, const Offer& offer) {
   if (needs.position && !offer.position)
     throw Error(ErrorCode::no_input, cat("stage ", id, " (", method, ") needs to know where the camera stands"),
-                "the header has no camera matrices: give --camera FILE.json, or set " + id + ".reprojection=auto");
+                "the header has no camera matrices: give --camera FILE.json, or " +
+                    (needs.without_position.empty() ? "leave the stage out with --skip " + id
+                                                    : cat("set ", id, ".", needs.without_position)));
   if (needs.lens && !offer.lens)
     throw Error(ErrorCode::no_input, cat("stage ", id, " (", method, ") needs to know the camera's field of view"),
                 "the header has no camera matrices: give --fov DEGREES or --camera FILE.json, or leave the stage out "
@@ -33,7 +35,7 @@ void check_needs(const std::string& id, std::string_view method, const Needs& ne
     any.emplace_back(role.name);
     found = found || offer.roles.contains(role.role);
   }
-  if (!found) fail_role(id, method, join(any, " or "));
+  if (!found) fail_role(id, method, join(any, " or ") + needs.or_else);
 }
 
 /// What the stages so far leave for the next.

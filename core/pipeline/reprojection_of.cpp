@@ -4,6 +4,7 @@ namespace aftershade::pipeline {
 
 void add_reprojection_needs(Needs& needs, const Offer& offer, temporal::ReprojectionSource source) {
   needs.position = source == temporal::ReprojectionSource::camera;
+  needs.without_position = "reprojection=auto";
   if (source == temporal::ReprojectionSource::camera) return;
   needs.optional.insert(Role::velocity_prev);
   if (!offer.roles.contains(Role::velocity_prev) && offer.roles.contains(Role::velocity_next))

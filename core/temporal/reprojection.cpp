@@ -14,38 +14,6 @@ namespace {
 
 bool is_surface(float depth) { return std::isfinite(depth) && depth > 0; }
 
-/// As StaticMotion, in double.
-struct Polynomial {
-  double a = 0, b = 0, c = 0;
-  Polynomial operator+(const Polynomial& o) const { return {a + o.a, b + o.b, c + o.c}; }
-  Polynomial operator*(double k) const { return {a * k, b * k, c * k}; }
-  RowPolynomial in_float() const { return {static_cast<float>(a), static_cast<float>(b), static_cast<float>(c)}; }
-};
-
-/// Coordinate k of the point in camera i-1, over z in perspective, along the row at `y` below the axis. A point of
-/// camera i is z (x / fx, -y / fy, 1), or (x / fx, -y / fy, z).
-Polynomial coordinate(const CameraReprojection& cameras, int k, double y) {
-  const Camera& now = cameras.now();
-  const Mat4& delta = cameras.delta();
-  const double ahead = delta[2][k], fixed = delta[3][k];
-  return {(now.orthographic ? fixed : ahead) - y * delta[1][k] / now.fy, delta[0][k] / now.fx,
-          now.orthographic ? ahead : fixed};
-}
-
-StaticMotion static_motion(const CameraReprojection& cameras, double row_y) {
-  const Camera &now = cameras.now(), &before = cameras.before();
-  const double y = row_y - now.cy;
-  const Polynomial ahead = coordinate(cameras, 2, y);
-  // Perspective divides by the depth before; an orthographic camera by what coordinate() left out.
-  const Polynomial scale = !before.orthographic ? ahead : now.orthographic ? Polynomial{1} : Polynomial{0, 0, 1};
-  const Polynomial x = coordinate(cameras, 0, y) * before.fx + scale * (before.cx - now.cx);
-  const Polynomial move_y = coordinate(cameras, 1, y) * -before.fy + scale * (before.cy - now.cy - y);
-  const Polynomial move_x{x.a, x.b - scale.a, x.c};  // minus the pixel's own x times the scale
-  return {
-      move_x.in_float(),           move_y.in_float(), scale.in_float(), ahead.in_float(), static_cast<float>(-scale.b),
-      static_cast<float>(-scale.c)};
-}
-
 }  // namespace
 
 Reprojection::Reprojection(const ReprojectionInput& input, ReprojectionSource source, float agreement_px)
@@ -60,11 +28,7 @@ void Reprojection::row(int y, const float* not_needed, float* x, float* y_before
   if (vectors_) row.mv_x = input_.mv_prev_x.row(y), row.mv_y = input_.mv_prev_y.row(y);
   row.not_needed = not_needed;
   row.camera = input_.camera.has_value();
-  if (row.camera) {
-    row.motion = static_motion(*input_.camera, centre_y);
-    row.orthographic = input_.camera->now().orthographic;
-    row.centre_x = static_cast<float>(input_.camera->now().cx);
-  }
+  if (row.camera) row.motion = filter::static_motion(*input_.camera, centre_y);
   row.holes_are_invalid = input_.holes_are_invalid;
   row.agreement_px = agreement_px_;
   row.width = input_.depth.width;

@@ -2,34 +2,17 @@
 #include <limits>
 
 #include "core/filter/lane_geometry.h"
+#include "core/filter/static_motion.h"
 
 namespace aftershade::temporal {
 using namespace lanes;
-
-/// a + b x + c t along one row of pixels: x the pixel's centre, from the principal point; t = 1 / z (perspective) or z
-/// (orthographic).
-struct RowPolynomial {
-  float a, b, c;
-  Float operator()(Float x, Float t) const { return a + b * x + c * t; }
-};
-
-/// Where a static surface was seen before, on one row: x' - x = (move_x + x (x_squared x + x_t t)) / scale and
-/// y' - y = move_y / scale, each numerator with its coefficients worked out in double, so that a camera that stands
-/// still moves no pixel by any bit. The depth is that of camera i-1: z (z_a + z_b x) + z_c (perspective), or
-/// z_a + z_b x + z_c z.
-struct StaticMotion {
-  RowPolynomial move_x, move_y, scale, z;
-  float x_squared, x_t;
-};
 
 struct ReprojectionRow {
   const float* depth;
   const float *mv_x, *mv_y;  ///< null: no vectors
   const float* not_needed;   ///< 1: this pixel's past is not asked for; may be null
   bool camera;               ///< is `motion` known?
-  StaticMotion motion;
-  bool orthographic;
-  float centre_x;  ///< of camera i
+  filter::StaticMotion motion;
   bool holes_are_invalid;
   float agreement_px;
   int width, min_x;
@@ -37,16 +20,10 @@ struct ReprojectionRow {
   float *out_x, *out_y, *out_z;  ///< absolute position and depth before, NaN: unknown
 };
 
-/// Position and expected depth of a static surface (algorithms 7.1); NaN behind the camera before.
+/// Position and expected depth of a static surface; NaN behind the camera before.
 inline filter::Point static_surface(const ReprojectionRow& row, Float x, Float y, Float z) {
-  const StaticMotion& m = row.motion;
-  const Float from_axis = x - row.centre_x, t = row.orthographic ? z : 1.0F / z;
-  const Float share = 1.0F / m.scale(from_axis, t);
-  const Float dx = (m.move_x(from_axis, t) + from_axis * (m.x_squared * from_axis + m.x_t * t)) * share;
-  const Float dy = m.move_y(from_axis, t) * share;
-  const Float before = row.orthographic ? m.z(from_axis, z) : (m.z.a + m.z.b * from_axis) * z + m.z.c;
-  constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-  return filter::select(before > 0.0F, {x + dx, y + dy, before}, {kUnknown, kUnknown, kUnknown});
+  const filter::Point moved = filter::static_displacement(row.motion, x, z);
+  return {x + moved.x, y + moved.y, moved.z};
 }
 
 /// The vector decides where it is known and the camera's motion does not explain it (algorithms 7.2).

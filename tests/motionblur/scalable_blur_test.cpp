@@ -249,10 +249,11 @@ TEST(ScalableBlurParams, RadiusScalesWithTheHeightAndIsRoundedUp) {
 TEST(ScalableBlurParams, TableReachesEveryMember) {
   using params::Kind;
   const ScalableBlurParams usual;
-  EXPECT_EQ(ScalableBlurParams::table().size(), 12U);
+  EXPECT_EQ(ScalableBlurParams::table().size(), 23U);
   for (const params::Record& record : ScalableBlurParams::table()) {
     ScalableBlurParams changed;
     params::Json value = record.kind == Kind::boolean ? params::Json(!record.default_value.get<bool>())
+                         : record.kind == Kind::text  ? params::Json("x")
                          : record.kind == Kind::choice
                              ? params::Json(record.choices[record.default_value == record.choices[0] ? 1 : 0])
                              : params::Json(5);

@@ -54,11 +54,16 @@ TEST(ViewPipeline, NamesTheStageAndTheRoleThatIsMissing) {
   EXPECT_NE(text.find("--channel"), std::string::npos) << text;
 }
 
-TEST(ViewPipeline, MotionBlurNeedsEitherVelocity) {
-  const std::string text = message_of([] {
-    ViewPipeline(preset_of("high-dx11"), "", {{Role::depth}, true, true}, {});
-  });
-  EXPECT_NE(text.find("velocity_prev or velocity_next"), std::string::npos) << text;
+TEST(ViewPipeline, MotionBlurNeedsEitherVelocityOrTheCameraWithDepth) {
+  preset::Preset blur = preset_of("high-dx11");
+  std::erase_if(blur.stages, [](const auto& stage) { return stage.id != "motion_blur"; });
+  for (const Offer& offer : {Offer{{Role::depth}, true, false}, Offer{{}, true, true}}) {
+    const std::string text = message_of([&] { ViewPipeline(blur, "", offer, {}); });
+    EXPECT_NE(text.find("velocity_prev or velocity_next, or depth and camera matrices"), std::string::npos) << text;
+  }
+  for (const Offer& offer : {Offer{{Role::velocity_prev}, false, false}, Offer{{Role::velocity_next}, false, false},
+                             Offer{{Role::depth}, true, true}})
+    EXPECT_NO_THROW(ViewPipeline(blur, "", offer, {}));
 }
 
 TEST(ViewPipeline, AsksForAFieldOfView) {
@@ -223,8 +228,7 @@ TEST(Run, AStrictDepthTestIsNoCut) {
       for (int x = 0; x < 48; ++x) frame.planes(Role::depth)[0](x, y) += 0.01F * static_cast<float>(x);
     view.push(std::move(frame), std::nullopt, {number, view.stages(), true, number == 1});
     const std::vector<FinishedFrame> finished = view.take_finished();
-    for (const std::string& note : finished.at(0).report.notes)
-      EXPECT_EQ(note.find("cut"), std::string::npos) << note;
+    for (const std::string& note : finished.at(0).report.notes) EXPECT_EQ(note.find("cut"), std::string::npos) << note;
   }
 }
 
