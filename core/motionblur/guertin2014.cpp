@@ -1,0 +1,72 @@
+#include "core/motionblur/guertin2014.h"
+
+#include "core/motionblur/guertin2014_kernel.h"
+#include "core/motionblur/guertin_tiles.h"
+#include "core/motionblur/jitter.h"
+#include "core/parallel/rows.h"
+
+namespace aftershade::motionblur {
+
+const params::Table& Guertin2014Params::table() {
+  using P = Guertin2014Params;
+  params::TableBuilder<P> builder;
+  static const params::Table table =
+      add_motion(builder)
+          .add("taps", &P::taps, {2, 999}, "Samples per pixel beside the centre; more give a smoother blur.")
+          .add("max_radius_px", &P::max_radius_px, {1, 1000},
+               "Longest blur to either side of a pixel at the reference height; tile size and search radius too.")
+          .add("reference_height_px", &P::reference_height_px, {1, 100000},
+               "Image height that max_radius_px is meant for: at another height it scales and is rounded up.")
+          .add("tap_jitter", &P::tap_jitter, {0, 1},
+               "How far samples shift from pixel to pixel to hide banding, as a share of their spacing (eta).")
+          .add("tile_jitter", &P::tile_jitter, {0, 2},
+               "How far a pixel looks for another tile at random to hide seams, in quarter tiles (tau).")
+          .add("centre_divisor", &P::centre_divisor, {1e-4, 100000},
+               "The pixel's own weight is taps / (centre_divisor |v|): higher blurs more thickly (kappa).")
+          .add("slow_px", &P::slow_px, {1e-4, 1000},
+               "Speed above half a pixel from which on samples follow the pixel's own motion; slower ones look across "
+               "the motion around them (gamma).")
+          .add("split", &P::split, {"even", "variance"},
+               "How samples are shared between the two directions: half of them each, or more along the pixel's own "
+               "motion where motions around it differ.")
+          .build();
+  return table;
+}
+
+int max_radius_px(const Guertin2014Params& params, int display_height) {
+  return radius_at(params.max_radius_px, params.reference_height_px, display_height);
+}
+
+namespace {
+
+HalfVelocity directions_of(const HalfVelocity& velocity) {
+  const int width = velocity.x.width(), height = velocity.x.height();
+  HalfVelocity out{Plane(width, height), Plane(width, height)};
+  for_rows(height,
+           [&](int y) { directions_row(velocity.x.row(y), velocity.y.row(y), width, out.x.row(y), out.y.row(y)); });
+  return out;
+}
+
+}  // namespace
+
+void guertin2014_blur(const Guertin2014Params& params, const GatherInput& input, std::span<Plane* const> channels) {
+  const int radius = max_radius_px(params, input.display_height);
+  const HalfVelocity neighbours = directional_neighbour_max(tile_max(*input.velocity, radius, input.window));
+  if (!any_moves(neighbours)) return;
+  const bool even = params.split == TapSplit::even;
+  const Plane share = even ? Plane(neighbours.x.width(), neighbours.x.height(), 0.5F) : direction_variance(neighbours);
+  const TileChoice tiles = choose_tiles(neighbours, share, radius, input.window, 0.25F * params.tile_jitter);
+  const Plane jitter = even_jitter(input.window);
+  const HalfVelocity directions = directions_of(*input.velocity);
+  const Guertin2014Kernel kernel{
+      params.taps,           params.tap_jitter,   static_cast<float>(params.taps) / params.centre_divisor,
+      1.0F / params.slow_px, directions.x.row(0), directions.y.row(0)};
+  gather_rows(gather_source(*input.velocity, input.depth, channels), channels,
+              [&](const GatherPlanes& planes, float* const* target, int y) {
+                const Guertin2014Row row{tiles.velocity.x.row(y), tiles.velocity.y.row(y), tiles.variance.row(y),
+                                         jitter.row(y)};
+                guertin2014_row(kernel, planes, row, target, y);
+              });
+}
+
+}  // namespace aftershade::motionblur

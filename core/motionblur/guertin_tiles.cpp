@@ -1,0 +1,93 @@
+#include "core/motionblur/guertin_tiles.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/sampling.h"
+#include "core/motionblur/gather_kernel.h"
+#include "core/parallel/rows.h"
+
+namespace aftershade::motionblur {
+
+namespace {
+
+/// Calls `visit(column, row)` for the tiles of the grid next to one, in reading order.
+template <class Visit>
+void for_adjacent(const Plane& grid, int column, int row, const Visit& visit) {
+  for (int y = std::max(row - 1, 0); y <= std::min(row + 1, grid.height() - 1); ++y)
+    for (int x = std::max(column - 1, 0); x <= std::min(column + 1, grid.width() - 1); ++x)
+      if (x != column || y != row) visit(x, y);
+}
+
+/// The paper's norm(v): a vector without length has no direction.
+struct Direction {
+  float x, y;
+};
+Direction direction_of(float x, float y) {
+  const float length = std::sqrt(x * x + y * y) + kNoDivisionByZero;
+  return {x / length, y / length};
+}
+
+bool passes_through(int offset_x, int offset_y, float vx, float vy) {
+  return offset_x == 0 || offset_y == 0 || static_cast<float>(offset_x) * vx * static_cast<float>(offset_y) * vy > 0;
+}
+
+}  // namespace
+
+HalfVelocity directional_neighbour_max(const HalfVelocity& tiles) {
+  HalfVelocity out{copy_of(tiles.x), copy_of(tiles.y)};
+  for (int row = 0; row < tiles.x.height(); ++row)
+    for (int column = 0; column < tiles.x.width(); ++column)
+      for_adjacent(tiles.x, column, row, [&](int x, int y) {
+        const float vx = tiles.x(x, y), vy = tiles.y(x, y);
+        float &best_x = out.x(column, row), &best_y = out.y(column, row);
+        if (!passes_through(x - column, y - row, vx, vy)) return;
+        if (vx * vx + vy * vy <= best_x * best_x + best_y * best_y) return;
+        best_x = vx, best_y = vy;
+      });
+  return out;
+}
+
+Plane direction_variance(const HalfVelocity& neighbours) {
+  Plane out(neighbours.x.width(), neighbours.x.height());
+  for (int row = 0; row < out.height(); ++row)
+    for (int column = 0; column < out.width(); ++column) {
+      const Direction own = direction_of(neighbours.x(column, row), neighbours.y(column, row));
+      float agreement = 0;
+      int count = 0;
+      for_adjacent(out, column, row, [&](int x, int y) {
+        const Direction other = direction_of(neighbours.x(x, y), neighbours.y(x, y));
+        agreement += std::abs(own.x * other.x + own.y * other.y);
+        ++count;
+      });
+      out(column, row) = count > 0 ? std::clamp(1 - agreement / static_cast<float>(count), 0.0F, 1.0F) : 0.0F;
+    }
+  return out;
+}
+
+TileChoice choose_tiles(const HalfVelocity& neighbours, const Plane& variance, int tile, Window window, float reach) {
+  const TileGrid grid(tile, window);
+  const int width = window.width(), height = window.height();
+  TileChoice out{{Plane(width, height), Plane(width, height)}, Plane(width, height)};
+  const float reach_px = reach * static_cast<float>(tile);
+  for_rows(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      int column = grid.column_of(x), row = grid.row_of(y);
+      if (std::hypot(neighbours.x(column, row), neighbours.y(column, row)) > kLeastRadius_px) {
+        const uint32_t bits =
+            hash_counters(static_cast<uint32_t>(window.min_x + x), static_cast<uint32_t>(window.min_y + y), 0, 1);
+        const auto shift = static_cast<int>(std::floor(0.5F + (2 * unit_float(bits) - 1) * reach_px));
+        if ((bits & 1U) != 0)
+          column = std::clamp(grid.column_of(x + shift), 0, grid.columns() - 1);
+        else
+          row = std::clamp(grid.row_of(y + shift), 0, grid.rows() - 1);
+      }
+      out.velocity.x(x, y) = neighbours.x(column, row);
+      out.velocity.y(x, y) = neighbours.y(column, row);
+      out.variance(x, y) = variance(column, row);
+    }
+  });
+  return out;
+}
+
+}  // namespace aftershade::motionblur
