@@ -196,6 +196,21 @@ TEST(TileSeams, AreTheRatioOfErrorStepsAcrossAndInside) {
   EXPECT_TRUE(std::isnan(tile_seam_ratio(truth, truth, 4))) << "no error at all";
 }
 
+TEST(TileSeams, AreNoneInNoiseAndShowInNoiseOnceTilesDiffer) {
+  const Plane truth(256, 192);
+  Plane noise(256, 192), tiled(256, 192);
+  for (int y = 0; y < 192; ++y)
+    for (int x = 0; x < 256; ++x) {
+      noise(x, y) = unit_float(hash_counters(static_cast<uint32_t>(x), static_cast<uint32_t>(y)));
+      tiled(x, y) = noise(x, y) + 0.2F * static_cast<float>((x / 16 + y / 16) % 2);
+    }
+  EXPECT_NEAR(tile_seam_ratio(noise, truth, 16), 1, 0.02);
+  EXPECT_NEAR(tile_seam_ratio(noise, truth, 5), 1, 0.02);
+  // The mean of |a - b + 0.2| for evenly distributed a and b is 1/3 + 0.04 - 0.008/3.
+  EXPECT_NEAR(tile_seam_ratio(tiled, truth, 16), (1.0 / 3 + 0.04 - 0.008 / 3) * 3, 0.02);
+  EXPECT_NEAR(tile_seam_ratio(tiled, truth, 16, 8, 8), 1, 0.02) << "seams inside tiles, one step in fifteen";
+}
+
 TEST(BorderMask, IsAFrameOfTheGivenWidth) {
   const Plane mask = border_mask(6, 5, 2);
   int inside = 0;
