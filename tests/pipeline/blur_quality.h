@@ -1,0 +1,229 @@
+#pragma once
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/metrics/flip.h"
+#include "core/metrics/temporal_metrics.h"
+#include "tests/pipeline/ao_quality.h"
+#include "tests/pipeline/disocclusion.h"
+#include "tests/support/scene_source.h"
+#include "tests/support/scenes.h"
+#include "tests/support/truth_cache.h"
+
+/// Motion blur against accumulated truth, for a shutter of half a frame centred on the frame: what the benchmarks print
+/// and tests may bound.
+namespace aftershade::tests {
+
+inline constexpr double kShutter_frames = 0.5;
+inline constexpr int kShutterSamples = 64;
+
+/// A motion blur alone: a shipped preset's stage "motion_blur", or a method with its defaults.
+struct BlurMethod {
+  const char* name;
+  const char* preset = nullptr;
+  const char* method = nullptr;
+  bool has_clamp = false;  ///< max_radius_px shortens velocities; it is also measured lifted
+};
+/// THE list of the benchmarks: a line adds a method. The first is no blur at all.
+inline constexpr BlurMethod kBlurMethods[] = {
+    {.name = "none"},
+    {.name = "vv-current-gen", .preset = "vicarious-visions-current-gen", .has_clamp = true},
+    {.name = "vv-dx11", .preset = "vicarious-visions-dx11", .has_clamp = true},
+    {.name = "mcguire2012", .method = "mcguire2012", .has_clamp = true},
+    {.name = "guertin2014", .method = "guertin2014", .has_clamp = true},
+};
+
+/// One stage, "motion_blur".
+inline preset::Preset preset_of(const BlurMethod& method, const params::Json& values = params::Json::object()) {
+  params::Json stage{{"id", "motion_blur"}};
+  if (method.method) stage["method"] = method.method;
+  if (method.preset) {
+    const params::Json whole = preset::to_json(preset::load_preset(method.preset).preset);
+    for (const params::Json& other : whole.at("stages"))
+      if (other.at("id") == "motion_blur") stage = other;
+  }
+  stage.update(values);
+  return preset::from_json({{"description", method.name}, {"stages", params::Json::array({stage})}}, method.name);
+}
+
+/// Tile size of a preset of preset_of at an image height: its radius. 0 for a method without tiles.
+inline int tile_px(const preset::Preset& preset, int height) {
+  const params::Json stage = preset::to_json(preset).at("stages").at(0);
+  if (!stage.contains("max_radius_px")) return 0;
+  const double radius =
+      stage.at("max_radius_px").get<double>() * height / stage.at("reference_height_px").get<double>();
+  return std::max(1, static_cast<int>(std::ceil(radius)));
+}
+
+/// What one frame is measured against.
+struct BlurTruth {
+  std::array<Plane, 3> sharp, truth;  ///< red, green and blue
+  Plane uncovered;                    ///< see disocclusion.h
+};
+inline metrics::Rgb rgb_of(const std::array<Plane, 3>& planes) { return {planes[0], planes[1], planes[2]}; }
+
+/// A sequence with truth for some of its frames.
+struct BlurCase {
+  std::string name, channels;  ///< prefix of the beauty's channels
+  std::unique_ptr<FrameSource> source;
+  std::vector<int> on_disk;
+  std::map<int, BlurTruth> frames;
+  int height = 0;
+  double longest_px = 0;  ///< of half the exposure, over the measured frames
+  /// The radius that shortens nothing, as values of a stage.
+  params::Json lifted() const {
+    return {{"max_radius_px", std::max(1.0, std::ceil(longest_px))}, {"reference_height_px", height}};
+  }
+};
+
+inline std::array<Plane, 3> first_three(std::vector<Plane>& planes) {
+  return {std::move(planes.at(0)), std::move(planes.at(1)), std::move(planes.at(2))};
+}
+
+/// Adds a frame; the file's own mask of what is uncovered stands in where `uncovered` is empty.
+inline void add_frame(BlurCase& blur, Frame frame, std::array<Plane, 3> truth, Plane uncovered) {
+  const auto& prev = frame.planes(Role::velocity_prev);
+  const auto& next = frame.planes(Role::velocity_next);
+  blur.height = frame.display.height();
+  for (int y = 0; y < frame.window.height(); ++y)
+    for (int x = 0; x < frame.window.width(); ++x) {
+      const auto half = [&](size_t c) {
+        return kShutter_frames / 4 * static_cast<double>(next[c](x, y) - prev[c](x, y));
+      };
+      const double length = std::hypot(half(0), half(1));
+      if (std::isfinite(length)) blur.longest_px = std::max(blur.longest_px, length);
+    }
+  if (uncovered.empty()) uncovered = disocclusion_of(frame, kShutter_frames, kShutterSamples);
+  blur.frames[frame.number] = {first_three(frame.layers.at(0).planes), std::move(truth), std::move(uncovered)};
+}
+
+inline const RoleSet kVelocities{Role::velocity_prev, Role::velocity_next};
+
+/// The public sequence, where it is there.
+inline BlurCase yard_blur_case(const std::vector<int>& frames) {
+  BlurCase blur;
+  blur.name = "yard", blur.channels = "ViewLayer.Combined.";
+  blur.source.reset(new io::FileSource(open_yard("yard")));  // which cannot be moved
+  blur.on_disk = frames_from_to(1, kYardFrames);
+  io::FileSource truth = open_yard("yard_blur");
+  for (const int number : frames)
+    add_frame(blur, *blur.source->load(number, "", kVelocities, true),
+              first_three(truth.load(number, "", {}, true)->layers.at(0).planes), {});
+  return blur;
+}
+
+/// Frame 4 of a scene, 240x135, among frames 1 to 8.
+inline BlurCase scene_blur_case(const std::string& name) {
+  constexpr int kFrame = 4;
+  const RenderSettings settings{240, 135, 4};
+  const Scene& scene = find_scene(name);
+  BlurCase blur;
+  blur.name = name;
+  blur.source = std::make_unique<SceneSource>(scene, settings, 1, 8);
+  blur.on_disk = frames_from_to(1, 8);
+  std::vector<Plane> truth = cached_blur_truth(name, kFrame, kShutter_frames, kShutterSamples, settings);
+  add_frame(blur, *blur.source->load(kFrame, "", kVelocities, true), first_three(truth),
+            disocclusion_truth(scene, kFrame, kShutter_frames, kShutterSamples, settings.width, settings.height));
+  return blur;
+}
+
+/// The measured frames blurred by a preset, from the whole sequence.
+inline std::map<int, std::array<Plane, 3>> blurred(const BlurCase& blur, const preset::Preset& preset) {
+  std::vector<pipeline::ViewPipeline> views;
+  views.emplace_back(preset, "", kFullOffer, pipeline::Outputs{});
+  MemorySink sink;
+  pipeline::RunOptions options;
+  options.on_disk = blur.on_disk;
+  for (const auto& frame : blur.frames) options.written.push_back(frame.first);
+  pipeline::run(views, *blur.source, sink, options);
+  std::map<int, std::array<Plane, 3>> out;
+  for (auto& [number, planes] : sink.planes)
+    for (size_t c = 0; c < 3; ++c) out[number][c] = std::move(planes.at(blur.channels + "RGB"[c]));
+  return out;
+}
+
+struct BlurScore {
+  double psnr = 0;            ///< dB, of display values (gamma 2.2, clipped to 0..1)
+  double ssim = 0;            ///< of the mean of the three display values
+  double hdr_flip = 0;        ///< mean, 67 pixels a degree
+  double radiance = 0;        ///< mean of all values, over that of the truth
+  double psnr_uncovered = 0;  ///< where the frame does not show what the shutter sees
+  double seams = 0;  ///< error steps across tile borders over those inside, of display values; NaN without tiles
+  double seams_elsewhere = 0;  ///< the greatest for tiles laid elsewhere: what the picture's content alone makes
+};
+
+/// Gamma 2.2, clipped.
+inline Plane displayed(ConstPlaneView plane) {
+  Plane out(plane.width, plane.height);
+  for (int y = 0; y < plane.height; ++y)
+    for (int x = 0; x < plane.width; ++x) out(x, y) = std::pow(std::clamp(plane(x, y), 0.0F, 1.0F), 1 / 2.2F);
+  return out;
+}
+inline Plane mean_of_three(const std::array<Plane, 3>& planes) {
+  Plane out(planes[0].width(), planes[0].height());
+  for (int y = 0; y < out.height(); ++y)
+    for (int x = 0; x < out.width(); ++x) out(x, y) = (planes[0](x, y) + planes[1](x, y) + planes[2](x, y)) / 3;
+  return out;
+}
+inline double sum_of(const metrics::Rgb& rgb) {
+  double sum = 0;
+  for (ConstPlaneView plane : rgb)
+    for (int y = 0; y < plane.height; ++y)
+      for (int x = 0; x < plane.width; ++x) sum += std::isfinite(plane(x, y)) ? static_cast<double>(plane(x, y)) : 0;
+  return sum;
+}
+
+/// Seams where the tiles are and elsewhere, means over the channels.
+inline void add_seams(BlurScore& score, const std::array<Plane, 3>& shown, const std::array<Plane, 3>& truth,
+                      int tile) {
+  constexpr int kElsewhere = 16;  // shifts along the diagonal at most
+  const auto seams = [&](int shift) {
+    double sum = 0;
+    for (size_t c = 0; c < 3; ++c) sum += metrics::tile_seam_ratio(shown[c], truth[c], tile, shift, shift) / 3;
+    return sum;
+  };
+  score.seams = score.seams_elsewhere = std::nan("");
+  if (tile <= 0) return;
+  score.seams = seams(0);
+  const int step = (tile - 2) / kElsewhere + 1;
+  for (int shift = step; shift < tile; shift += step)
+    score.seams_elsewhere = std::fmax(score.seams_elsewhere, seams(shift));
+}
+
+/// `tile` 0: the method has none.
+inline BlurScore blur_score(const metrics::Rgb& image, const metrics::Rgb& truth, ConstPlaneView uncovered, int tile) {
+  const auto all_displayed = [](const metrics::Rgb& rgb) {
+    return std::array<Plane, 3>{displayed(rgb[0]), displayed(rgb[1]), displayed(rgb[2])};
+  };
+  const std::array<Plane, 3> shown = all_displayed(image), true_shown = all_displayed(truth);
+  const Plane flip = metrics::hdr_flip(image, truth);
+  BlurScore score;
+  score.psnr = metrics::display_psnr(image, truth);
+  score.ssim = metrics::ssim(mean_of_three(shown), mean_of_three(true_shown));
+  score.hdr_flip = metrics::distribution(std::array<ConstPlaneView, 1>{flip}).mean;
+  score.radiance = sum_of(image) / sum_of(truth);
+  score.psnr_uncovered = metrics::display_psnr(image, truth, uncovered);
+  add_seams(score, shown, true_shown, tile);
+  return score;
+}
+
+/// Of every measured frame. `clamped` false lifts the radius of a method that has one.
+inline std::map<int, BlurScore> blur_scores(const BlurCase& blur, const BlurMethod& method, bool clamped) {
+  std::map<int, BlurScore> scores;
+  if (!method.preset && !method.method) {
+    for (const auto& [number, frame] : blur.frames)
+      scores[number] = blur_score(rgb_of(frame.sharp), rgb_of(frame.truth), frame.uncovered, 0);
+    return scores;
+  }
+  const preset::Preset preset = preset_of(method, clamped ? params::Json::object() : blur.lifted());
+  for (const auto& [number, image] : blurred(blur, preset)) {
+    const BlurTruth& frame = blur.frames.at(number);
+    scores[number] = blur_score(rgb_of(image), rgb_of(frame.truth), frame.uncovered, tile_px(preset, blur.height));
+  }
+  return scores;
+}
+
+}  // namespace aftershade::tests
