@@ -2,17 +2,15 @@
 // Every chain takes its turn in each repetition; figures are medians. See README.md.
 //   bench_ao_cost [--smoke] [--json FILE] [--size WIDTHxHEIGHT] [--repetitions N]
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <ctime>
 #include <fstream>
 #include <functional>
 #include <map>
 #include <string>
 
-#include "core/parallel/rows.h"
 #include "core/pipeline/stage.h"
 #include "core/preset/preset.h"
+#include "tests/bench/timing.h"
 #include "tests/support/scene_source.h"
 #include "tests/support/scenes.h"
 
@@ -25,27 +23,11 @@ struct Options {
   std::string json_file;
 };
 
-/// With one thread the processor's time, which others on the machine do not lengthen; with more, the wall's.
-double now_ms() {
-  using std::chrono::steady_clock;
-  if (thread_count() == 1) return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-  return std::chrono::duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
-}
-double milliseconds(const std::function<void()>& work) {
-  const double start = now_ms();
-  work();
-  return now_ms() - start;
-}
-
 /// Times of everything measured, by name.
 class Times {
  public:
   void add(const std::string& name, double ms) { times_[name].push_back(ms); }
-  double median(const std::string& name) const {
-    std::vector<double> sorted = times_.at(name);
-    std::sort(sorted.begin(), sorted.end());
-    return (sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2]) / 2;
-  }
+  double median(const std::string& name) const { return tests::median(times_.at(name)); }
   std::map<std::string, double> medians() const {
     std::map<std::string, double> out;
     for (const auto& entry : times_) out[entry.first] = median(entry.first);
@@ -70,7 +52,7 @@ class Chain {
     pipeline::Work work(frame, nullptr, options);
     double total = 0;
     for (const auto& stage : stages_) {
-      const double ms = milliseconds([&] { stage.second->run(work); });
+      const double ms = tests::milliseconds([&] { stage.second->run(work); });
       if (times) times->add(name_ + "/" + stage.first, ms);
       total += ms;
     }
@@ -116,8 +98,8 @@ void measure_blur_pass(const Frame& frame, Times* times) {
     filter::CrossBilateralBlurParams params;
     params.reference_height_px = static_cast<float>(frame.display.height());
     params.sampling = sampling;
-    const double ms =
-        milliseconds([&] { filter::cross_bilateral_blur_x(params, ao, {}, frame.depth(), frame.display.height()); });
+    const double ms = tests::milliseconds(
+        [&] { filter::cross_bilateral_blur_x(params, ao, {}, frame.depth(), frame.display.height()); });
     if (times) times->add(name, ms);
   };
   pass("blur-x/adaptive", filter::KernelSampling::adaptive);

@@ -97,17 +97,10 @@ params::Json print(const std::string& input, const std::string& method, const st
   return row;
 }
 
-double share(ConstPlaneView mask) {
-  double sum = 0;
-  for (int y = 0; y < mask.height; ++y)
-    for (int x = 0; x < mask.width; ++x) sum += static_cast<double>(mask(x, y));
-  return sum / (mask.width * mask.height);
-}
-
 params::Json measure(const tests::BlurCase& blur, const std::set<std::string>& methods) {
   double uncovered = 0;
   for (const auto& frame : blur.frames)
-    uncovered += share(frame.second.uncovered) / static_cast<double>(blur.frames.size());
+    uncovered += tests::share_of(frame.second.uncovered) / static_cast<double>(blur.frames.size());
   std::printf("%s: longest half exposure %.1f px, %.2f %% of the pixels uncovered\n", blur.name.c_str(),
               blur.longest_px, 100 * uncovered);
   params::Json rows = params::Json::array();

@@ -73,29 +73,36 @@ struct BlurCase {
   std::map<int, BlurTruth> frames;
   int height = 0;
   double longest_px = 0;  ///< of half the exposure, over the measured frames
-  /// The radius that shortens nothing, as values of a stage.
-  params::Json lifted() const {
-    return {{"max_radius_px", std::max(1.0, std::ceil(longest_px))}, {"reference_height_px", height}};
-  }
 };
 
 inline std::array<Plane, 3> first_three(std::vector<Plane>& planes) {
   return {std::move(planes.at(0)), std::move(planes.at(1)), std::move(planes.at(2))};
 }
 
-/// Adds a frame; the file's own mask of what is uncovered stands in where `uncovered` is empty.
-inline void add_frame(BlurCase& blur, Frame frame, std::array<Plane, 3> truth, Plane uncovered) {
+/// The longest way of a surface during half the exposure.
+inline double longest_half_exposure_px(const Frame& frame) {
   const auto& prev = frame.planes(Role::velocity_prev);
   const auto& next = frame.planes(Role::velocity_next);
-  blur.height = frame.display.height();
+  double longest = 0;
   for (int y = 0; y < frame.window.height(); ++y)
     for (int x = 0; x < frame.window.width(); ++x) {
       const auto half = [&](size_t c) {
         return kShutter_frames / 4 * static_cast<double>(next[c](x, y) - prev[c](x, y));
       };
       const double length = std::hypot(half(0), half(1));
-      if (std::isfinite(length)) blur.longest_px = std::max(blur.longest_px, length);
+      if (std::isfinite(length)) longest = std::max(longest, length);
     }
+  return longest;
+}
+/// The radius that shortens nothing, as values of a stage.
+inline params::Json lifted_radius(double longest_px, int height) {
+  return {{"max_radius_px", std::max(1.0, std::ceil(longest_px))}, {"reference_height_px", height}};
+}
+
+/// Adds a frame; the file's own mask of what is uncovered stands in where `uncovered` is empty.
+inline void add_frame(BlurCase& blur, Frame frame, std::array<Plane, 3> truth, Plane uncovered) {
+  blur.height = frame.display.height();
+  blur.longest_px = std::max(blur.longest_px, longest_half_exposure_px(frame));
   if (uncovered.empty()) uncovered = disocclusion_of(frame, kShutter_frames, kShutterSamples);
   blur.frames[frame.number] = {first_three(frame.layers.at(0).planes), std::move(truth), std::move(uncovered)};
 }
@@ -218,7 +225,8 @@ inline std::map<int, BlurScore> blur_scores(const BlurCase& blur, const BlurMeth
       scores[number] = blur_score(rgb_of(frame.sharp), rgb_of(frame.truth), frame.uncovered, 0);
     return scores;
   }
-  const preset::Preset preset = preset_of(method, clamped ? params::Json::object() : blur.lifted());
+  const preset::Preset preset =
+      preset_of(method, clamped ? params::Json::object() : lifted_radius(blur.longest_px, blur.height));
   for (const auto& [number, image] : blurred(blur, preset)) {
     const BlurTruth& frame = blur.frames.at(number);
     scores[number] = blur_score(rgb_of(image), rgb_of(frame.truth), frame.uncovered, tile_px(preset, blur.height));

@@ -68,6 +68,14 @@ inline Plane disocclusion_truth(const Scene& scene, double time, double shutter_
   return mask;
 }
 
+/// Of the pixels that a mask marks.
+inline double share_of(ConstPlaneView mask) {
+  double sum = 0;
+  for (int y = 0; y < mask.height; ++y)
+    for (int x = 0; x < mask.width; ++x) sum += static_cast<double>(mask(x, y));
+  return sum / (mask.width * mask.height);
+}
+
 /// Marks the pixels within reach of a surface point that lies at (x, y).
 inline void cover(PlaneView covered, double x, double y) {
   constexpr double kReach_px = 0.6;  // 0.5 tiles an even image; the rest closes cracks where it stretches, up to 1.2

@@ -22,13 +22,6 @@ double recall(ConstPlaneView a, ConstPlaneView b) {
   return of_both / of_a;
 }
 
-double share(ConstPlaneView mask) {
-  double sum = 0;
-  for (int y = 0; y < mask.height; ++y)
-    for (int x = 0; x < mask.width; ++x) sum += static_cast<double>(mask(x, y));
-  return sum / (mask.width * mask.height);
-}
-
 /// A bar over columns 10 to 19 that moves by 8 pixels a frame.
 Frame bar_frame(float background_x) {
   Frame frame;
@@ -50,11 +43,11 @@ TEST(DisocclusionOfAFile, IsTheStripThatAMovingBarLeaves) {
   // Where all moves alike only the image's border lets something in.
   const Plane whole = disocclusion_of(bar_frame(8), 0.5, 64);
   for (int x = 0; x < 40; ++x) EXPECT_EQ(whole(x, 3), x < 2 || x >= 38 ? 1 : 0) << x;
-  EXPECT_EQ(share(disocclusion_of(bar_frame(0), 0, 4)), 0) << "a closed shutter";
+  EXPECT_EQ(share_of(disocclusion_of(bar_frame(0), 0, 4)), 0) << "a closed shutter";
   Frame unknown = bar_frame(0);
   for (int y = 0; y < 6; ++y)
     for (int x = 10; x < 20; ++x) unknown.planes(Role::velocity_next)[0](x, y) = std::nanf("");
-  EXPECT_EQ(share(disocclusion_of(unknown, 0.5, 4)), 0) << "of unknown motion nothing is known to be left";
+  EXPECT_EQ(share_of(disocclusion_of(unknown, 0.5, 4)), 0) << "of unknown motion nothing is known to be left";
 }
 
 /// A box moves by 0.1 m a frame before a wall, seen from so far that 0.1 m are 8 pixels at its depth.
@@ -76,7 +69,7 @@ TEST(DisocclusionTruth, IsTheStripThatAMovingBoxLeaves) {
     EXPECT_EQ(mask(x, kHeight / 2), left || right ? 1 : 0) << x;
     EXPECT_EQ(mask(x, 20), 0) << "above the box";
   }
-  EXPECT_EQ(share(disocclusion_truth(scene, 0, 0, 4, kWidth, kHeight)), 0);
+  EXPECT_EQ(share_of(disocclusion_truth(scene, 0, 0, 4, kWidth, kHeight)), 0);
 }
 
 TEST(DisocclusionOfAFile, AgreesWithTheTruthOfTheScenes) {
@@ -86,9 +79,9 @@ TEST(DisocclusionOfAFile, AgreesWithTheTruthOfTheScenes) {
     const Plane truth = disocclusion_truth(scene, 4, 0.5, 16, kWidth, kHeight);
     const Frame frame = render(scene, 4, {kWidth, kHeight, 1}, {Role::velocity_prev, Role::velocity_next}, false);
     const Plane mask = disocclusion_of(frame, 0.5, 64);
-    std::cout << name << ": " << 100 * share(truth) << " % are uncovered; of these the file tells "
+    std::cout << name << ": " << 100 * share_of(truth) << " % are uncovered; of these the file tells "
               << 100 * recall(truth, mask) << " %, and " << 100 * recall(mask, truth) << " % of what it tells are\n";
-    EXPECT_GT(share(truth), 0.001);
+    EXPECT_GT(share_of(truth), 0.001);
     EXPECT_GT(recall(mask, truth), 0.85);
     EXPECT_GT(recall(truth, mask), least);
   }
