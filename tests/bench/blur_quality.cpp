@@ -1,6 +1,6 @@
 // Every motion blur against accumulated truth (shutter 0.5, centred): the public sequence and synthetic scenes. Prints
 // a table, with --json also every frame's figures. See README.md.
-//   bench_blur_quality [--json FILE] [--frames 3,6,9] [--methods A,B] [--scenes yard,crossing]
+//   bench_blur_quality [--json FILE] [--frames 3,6,9] [--methods A,B] [--scenes yard,crossing] [--files PATTERN]
 #include "tests/pipeline/blur_quality.h"
 
 #include <cstdio>
@@ -19,7 +19,7 @@ struct Options {
   std::vector<int> frames = tests::frames_from_to(1, tests::kYardFrames);  ///< of the public sequence
   std::set<std::string> methods;                                           ///< empty: all
   std::vector<std::string> scenes{"yard", "crossing", "columns", "trail"};
-  std::string json_file;
+  std::string json_file, files;  ///< of another program that blurred the public sequence: out/yard_vb.####.exr
 };
 
 std::vector<std::string> items(const std::string& list) {
@@ -42,6 +42,8 @@ bool parse(int argc, char** argv, Options& options) {
       for (const std::string& frame : items(value)) options.frames.push_back(std::atoi(frame.c_str()));
     } else if (key == "--methods") {
       for (const std::string& method : items(value)) options.methods.insert(method);
+    } else if (key == "--files") {
+      options.files = value;
     } else if (key == "--scenes") {
       options.scenes = items(value);
     } else {
@@ -97,6 +99,21 @@ params::Json print(const std::string& input, const std::string& method, const st
   return row;
 }
 
+/// Of files with a beauty R, G, B.
+std::map<int, BlurScore> file_scores(const tests::BlurCase& blur, const std::string& pattern) {
+  io::SourceOptions options;
+  options.sequence = io::find_sequence(pattern, io::HashDigits::one).sequence;
+  options.profile = io::load_profile("generic");
+  io::FileSource source(std::move(options));
+  std::map<int, BlurScore> scores;
+  for (const auto& [number, frame] : blur.frames)
+    if (std::optional<Frame> image = source.load(number, "", {}, true)) {
+      const auto planes = tests::first_three(image->layers.at(0).planes);
+      scores[number] = tests::blur_score(tests::rgb_of(planes), tests::rgb_of(frame.truth), frame.uncovered, 0);
+    }
+  return scores;
+}
+
 params::Json measure(const tests::BlurCase& blur, const std::set<std::string>& methods) {
   double uncovered = 0;
   for (const auto& frame : blur.frames)
@@ -118,7 +135,9 @@ params::Json measure(const tests::BlurCase& blur, const std::set<std::string>& m
 int main(int argc, char** argv) {
   Options options;
   if (!parse(argc, argv, options)) {
-    std::fprintf(stderr, "usage: bench_blur_quality [--json FILE] [--frames N,N] [--methods A,B] [--scenes A,B]\n");
+    std::fprintf(
+        stderr,
+        "usage: bench_blur_quality [--json FILE] [--frames N,N] [--methods A,B] [--scenes A,B] [--files PATTERN]\n");
     return 64;
   }
   std::printf("%-9s %-24s %7s %7s %7s %8s %7s %7s %7s   %7s %7s\n", "input", "method", "PSNR", "SSIM", "FLIP", "light",
@@ -132,6 +151,8 @@ int main(int argc, char** argv) {
     const tests::BlurCase blur =
         scene == "yard" ? tests::yard_blur_case(options.frames) : tests::scene_blur_case(scene);
     for (params::Json& row : measure(blur, options.methods)) rows.push_back(std::move(row));
+    if (scene == "yard" && !options.files.empty())
+      rows.push_back(print(scene, std::filesystem::path(options.files).filename(), file_scores(blur, options.files)));
   }
   if (!options.json_file.empty()) std::ofstream(options.json_file) << rows.dump(2) << "\n";
 }
