@@ -59,7 +59,8 @@ struct MotionSources {
 };
 
 /// The motion of every pixel's surface: where one vector is known, the other is its negative; where none is, the
-/// camera's (depth and a camera beside the frame's own; the background follows its rotation), else it stands still.
+/// camera's (depth and a camera beside the frame's own; the background follows its rotation), else it stands still. A
+/// vector of 0 in the background counts as none where the camera is known: renderers write it for want of another.
 /// Then, in this order: the shares of camera and object (of a pixel whose camera motion is unknown, all is the
 /// object's), the added motion, the limits, by the longer of both vectors. `from_camera`, if not null, tells whether
 /// any vector is the camera's because the pixel has none.

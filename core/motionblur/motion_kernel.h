@@ -68,6 +68,11 @@ inline Displacement camera_displacement(const filter::StaticMotion* camera, Floa
   return displacement_of(moved.x, moved.y);
 }
 
+/// Renderers write 0 where they have no vector, in the background above all (Cycles does).
+inline Displacement unless_background(Displacement d, Float z) {
+  return {d.x, d.y, d.known & (filter::is_surface(z) | (abs(d.x) + abs(d.y) > 0.0F))};
+}
+
 /// camera share * camera + object share * (all - camera).
 inline Displacement shared_out(const MotionKernel& k, Displacement all, Displacement camera) {
   return {k.camera_share * camera.x + k.object_share * (all.x - camera.x),
@@ -102,18 +107,18 @@ inline bool motion_row(const MotionKernel& k, const MotionRow& row) {
   using namespace detail;
   bool from_camera = false;
   for (int i = 0; i < row.width; i += kLanes) {
-    const BothWays vectors = completed({load_displacement(row.prev, i), load_displacement(row.next, i)});
-    BothWays d = vectors;
+    BothWays d{load_displacement(row.prev, i), load_displacement(row.next, i)};
     if (row.before != nullptr || row.after != nullptr) {
-      const Float x = to_float(iota(row.min_x + i)) + 0.5F;
-      const Float z = load(row.depth + i);
+      const Float x = to_float(iota(row.min_x + i)) + 0.5F, z = load(row.depth + i);
       const BothWays camera = completed({camera_displacement(row.before, x, z), camera_displacement(row.after, x, z)});
-      from_camera = from_camera || any(camera.prev.known & !vectors.prev.known & (iota(i) < Int(row.width)));
+      d = completed({unless_background(d.prev, z), unless_background(d.next, z)});
+      from_camera = from_camera || any(camera.prev.known & !d.prev.known & (iota(i) < Int(row.width)));
       d = {first_known(d.prev, camera.prev), first_known(d.next, camera.next)};
       if (k.split) d = {shared_out(k, d.prev, camera.prev), shared_out(k, d.next, camera.next)};
-    } else if (k.split) {
+    } else {
+      d = completed(d);
       const Displacement none = load_displacement({nullptr, nullptr}, 0);
-      d = {shared_out(k, d.prev, none), shared_out(k, d.next, none)};
+      if (k.split) d = {shared_out(k, d.prev, none), shared_out(k, d.next, none)};
     }
     const Displacement added = added_motion(k, row, i);
     d = {{d.prev.x - added.x, d.prev.y - added.y, d.prev.known},

@@ -54,6 +54,8 @@ struct Picture {
     if (ax % 5 == 0) prev_x(x, y) = ay % 3 == 0 ? kNan : ay % 3 == 1 ? kInf : 1e15F;
     if (ay % 4 == 0) next_y(x, y) = ax % 3 == 0 ? kNan : ax % 3 == 1 ? -kInf : -1e18F;
     if (ax % 7 == 0) depth(x, y) = ay % 4 == 0 ? kInf : ay % 4 == 1 ? kNan : ay % 4 == 2 ? 0.0F : -1.0F;
+    if (ay % 3 == 0 && ax % 2 == 0) prev_x(x, y) = prev_y(x, y) = 0;
+    if (ay % 5 == 0 && ax % 2 == 0) next_x(x, y) = next_y(x, y) = 0;
     if (ax % 11 == 0) added_x(x, y) = ay % 2 == 0 ? kNan : kInf;
     if (ay % 11 == 0) mask(x, y) = ax % 2 == 0 ? kNan : -kInf;
   }
@@ -156,6 +158,11 @@ TEST(Motion, BackgroundFollowsTheRotationAlone) {
       EXPECT_EQ(still.next_y(x, y), 0);
       EXPECT_GT(std::abs(turned.prev_x(x, y)), 1);
     }
+  const Plane zero(64, 40);  // as Cycles writes it
+  sources.prev_x = sources.prev_y = sources.next_x = sources.next_y = zero;
+  EXPECT_EQ(motion_of({}, sources).prev_x(5, 5), turned.prev_x(5, 5));
+  picture.depth(5, 5) = 3;
+  EXPECT_EQ(motion_of({}, sources).prev_x(5, 5), 0) << "a surface that moves with the camera";
 }
 
 TEST(Motion, WhatWasBehindTheCameraMovesEvenlyOrStandsStill) {

@@ -46,15 +46,19 @@ MotionAt reference_motion(const motionblur::MotionParams& params, const motionbl
   const double px = sources.window.min_x + x + 0.5, py = sources.window.min_y + y + 0.5;
   Vector prev = vector_at(sources.prev_x, sources.prev_y, x, y);
   Vector next = vector_at(sources.next_x, sources.next_y, x, y);
+  const bool camera = sources.depth.data != nullptr && (sources.before || sources.after);
+  if (camera && !(std::isfinite(sources.depth(x, y)) && sources.depth(x, y) > 0))
+    for (Vector* vector : {&prev, &next})
+      if (*vector && (*vector)->length() == 0) vector->reset();
   complete(prev, next);
   Vector camera_prev, camera_next;
-  if (sources.depth.data != nullptr) {
+  if (camera) {
     camera_prev = camera_vector(sources.before, sources.depth(x, y), px, py);
     camera_next = camera_vector(sources.after, sources.depth(x, y), px, py);
     complete(camera_prev, camera_next);
   }
-  const auto shared = [&](Vector all, Vector camera) {
-    const Vec3 by_camera = camera.value_or(Vec3(0, 0, 0)), total = all ? *all : by_camera;
+  const auto shared = [&](Vector all, Vector static_part) {
+    const Vec3 by_camera = static_part.value_or(Vec3(0, 0, 0)), total = all ? *all : by_camera;
     return double{params.camera_motion} * by_camera + double{params.object_motion} * (total - by_camera);
   };
   MotionAt out{shared(prev, camera_prev), shared(next, camera_next)};

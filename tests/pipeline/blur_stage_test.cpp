@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <iostream>
+
 #include "core/base/error.h"
 #include "core/math/sampling.h"
 #include "core/metrics/image_metrics.h"
 #include "core/pipeline/pipeline.h"
+#include "tests/pipeline/ao_quality.h"
 #include "tests/pipeline/memory_sequence.h"
 
 namespace aftershade::pipeline {
@@ -262,6 +265,44 @@ TEST(BlurStage, OverscanBlursIntoThePicture) {
   }
   EXPECT_GT(border / 72, 0.02);
   EXPECT_LT(middle / 36, 1e-6);
+}
+
+/// Median, over the pixels with such a depth, of the distance in pixels between two forward motions.
+double median_difference(const motionblur::Motion& a, const motionblur::Motion& b, ConstPlaneView depth,
+                         bool background) {
+  std::vector<double> differences;
+  for (int y = 0; y < depth.height; ++y)
+    for (int x = 0; x < depth.width; ++x)
+      if (std::isinf(depth(x, y)) == background)
+        differences.push_back(std::hypot(a.next_x(x, y) - b.next_x(x, y), a.next_y(x, y) - b.next_y(x, y)));
+  if (differences.empty()) return 0;
+  std::ranges::nth_element(differences, differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2));
+  return differences[differences.size() / 2];
+}
+
+TEST(BlurStageYard, TheCamerasMotionIsThatOfTheFilesVectors) {
+  if (tests::yard_folder().empty()) GTEST_SKIP() << "NOT TESTED: no public data (set AFTERSHADE_DATA)";
+  io::FileSource source = tests::open_yard("yard");
+  for (const int number : {2, 6, 11}) {
+    const Frame frame = *source.load(number, "", {Role::depth, Role::velocity_prev, Role::velocity_next}, false);
+    motionblur::MotionSources vectors;
+    vectors.prev_x = frame.planes(Role::velocity_prev)[0], vectors.prev_y = frame.planes(Role::velocity_prev)[1];
+    vectors.next_x = frame.planes(Role::velocity_next)[0], vectors.next_y = frame.planes(Role::velocity_next)[1];
+    vectors.window = frame.window, vectors.display = frame.display;
+    motionblur::MotionSources camera;
+    camera.depth = frame.depth();
+    camera.window = frame.window, camera.display = frame.display;
+    camera.before = CameraReprojection::create(*frame.camera, *source.load(number - 1, "", {}, false)->camera);
+    camera.after = CameraReprojection::create(*frame.camera, *source.load(number + 1, "", {}, false)->camera);
+    const motionblur::Motion by_camera = motion_of({}, camera), by_vectors = motion_of({}, vectors);
+    const double surfaces = median_difference(by_vectors, by_camera, frame.depth(), false);
+    const double background = median_difference(by_vectors, by_camera, frame.depth(), true);
+    std::cout << "yard, frame " << number << ": the camera's motion differs from the vectors by " << surfaces
+              << " px, in the background, where they are 0, by " << background << " px (medians)\n";
+    EXPECT_LT(surfaces, 0.005);
+    vectors.depth = camera.depth, vectors.before = camera.before, vectors.after = camera.after;
+    EXPECT_EQ(median_difference(motion_of({}, vectors), by_camera, frame.depth(), true), 0);
+  }
 }
 
 }  // namespace
