@@ -3,7 +3,6 @@
 //   bench_ao_cost [--smoke] [--json FILE] [--size WIDTHxHEIGHT] [--repetitions N]
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <string>
@@ -17,11 +16,6 @@
 namespace {
 
 using namespace aftershade;
-
-struct Options {
-  int width = 1920, height = 1080, repetitions = 7;
-  std::string json_file;
-};
 
 /// Times of everything measured, by name.
 class Times {
@@ -137,52 +131,24 @@ std::vector<Row> rows_of(const Times& t) {
           {"the same with the AO at full resolution too / SOMA", "", ms("soma-full-ao-17x17") / ms("soma")}};
 }
 
-params::Json report(const Times& times, int threads) {
-  std::printf("\n%d thread%s\n", threads, threads == 1 ? "" : "s");
+params::Json report(const Times& times) {
   for (const auto& [name, value] : times.medians()) std::printf("  %-32s %9.2f ms\n", name.c_str(), value);
   params::Json ratios = params::Json::array();
   for (const Row& row : rows_of(times)) {
     std::printf("  %-72s %6.3f  %s\n", row.name, row.value, row.goal);
     ratios.push_back({{"name", row.name}, {"value", row.value}, {"goal", row.goal}});
   }
-  return {{"threads", threads}, {"median_ms", times.medians()}, {"ratios", ratios}};
-}
-
-bool parse(int argc, char** argv, Options& options) {
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    if (argument == "--smoke") {
-      options.width = 96, options.height = 54, options.repetitions = 1;
-    } else if (argument == "--json" && i + 1 < argc) {
-      options.json_file = argv[++i];
-    } else if (argument == "--repetitions" && i + 1 < argc) {
-      options.repetitions = std::max(std::atoi(argv[++i]), 1);
-    } else if (argument != "--size" || i + 1 == argc ||
-               std::sscanf(argv[++i], "%dx%d", &options.width, &options.height) != 2) {
-      return false;
-    }
-  }
-  return options.width > 0 && options.height > 0;
+  return {{"median_ms", times.medians()}, {"ratios", ratios}};
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  Options options;
-  if (!parse(argc, argv, options)) {
-    std::fprintf(stderr, "usage: bench_ao_cost [--smoke] [--json FILE] [--size WIDTHxHEIGHT] [--repetitions N]\n");
-    return 64;
-  }
+  tests::CostOptions options;
+  if (!tests::parse(argc, argv, options)) return 64;
   std::vector<Frame> frames;
   tests::SceneSource source(tests::find_scene("grass"), {options.width, options.height, 1}, 4, 5);
   for (const int number : {4, 5}) frames.push_back(*source.load(number, "", {Role::depth, Role::normal}, false));
   std::printf("grass, %d x %d, medians of %d turns\n", options.width, options.height, 2 * options.repetitions);
-  params::Json runs = params::Json::array();
-  const int all_threads = thread_count();
-  for (const int threads : {1, all_threads}) {
-    if (threads == 1 && !runs.empty()) break;
-    set_thread_count(threads);
-    runs.push_back(report(measure(frames, options.repetitions), threads));
-  }
-  if (!options.json_file.empty()) std::ofstream(options.json_file) << runs.dump(2) << "\n";
+  tests::with_one_and_all_threads(options, [&] { return report(measure(frames, options.repetitions)); });
 }

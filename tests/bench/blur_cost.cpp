@@ -1,8 +1,7 @@
 // What the motion blurs cost beside each other: time per frame, measured in one run on the synthetic crossing scene.
 // Every method takes its turn in each repetition; figures are medians. See README.md.
-//   bench_blur_cost [--smoke] [--json FILE] [--size WIDTHxHEIGHT] [--repetitions N] [--methods A,B]
+//   bench_blur_cost [--smoke] [--json FILE] [--size WIDTHxHEIGHT] [--repetitions N]
 #include <cstdio>
-#include <fstream>
 
 #include "core/base/text.h"
 #include "tests/bench/timing.h"
@@ -13,11 +12,6 @@ namespace {
 using namespace aftershade;
 
 constexpr int kFrame = 4;
-
-struct Options {
-  int width = 1920, height = 1080, repetitions = 5;
-  std::string json_file, methods;  ///< "": all
-};
 
 /// What a blur reads and changes.
 Frame copy_of_frame(const Frame& frame) {
@@ -71,11 +65,10 @@ class Timed {
   std::vector<double> times_;
 };
 
-std::vector<Timed> timed_methods(const std::string& wanted, double longest_px, int height) {
+std::vector<Timed> timed_methods(double longest_px, int height) {
   std::vector<Timed> out;
   for (const tests::BlurMethod& method : tests::kBlurMethods) {
     if (!method.preset && !method.method) continue;
-    if (!wanted.empty() && cat(",", wanted, ",").find(cat(",", method.name, ",")) == std::string::npos) continue;
     out.emplace_back(method.name, tests::preset_of(method));
     if (method.has_clamp)
       out.emplace_back(cat(method.name, ", lifted"),
@@ -87,7 +80,6 @@ std::vector<Timed> timed_methods(const std::string& wanted, double longest_px, i
 params::Json measure(std::vector<Timed>& methods, const Frames& frames, int repetitions) {
   for (int i = -1; i < repetitions; ++i)  // the first warms up
     for (Timed& method : methods) method.run(frames, i >= 0);
-  std::printf("\n%d thread%s\n", thread_count(), thread_count() == 1 ? "" : "s");
   params::Json rows = params::Json::array();
   double first = 0;
   for (Timed& method : methods) {
@@ -96,39 +88,14 @@ params::Json measure(std::vector<Timed>& methods, const Frames& frames, int repe
     std::printf("  %-24s %9.1f ms  %7.3f\n", method.name().c_str(), ms, ms / first);
     rows.push_back({{"method", method.name()}, {"median_ms", ms}, {"ratio", ms / first}});
   }
-  return {{"threads", thread_count()}, {"methods", rows}};
-}
-
-bool parse(int argc, char** argv, Options& options) {
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    if (argument == "--smoke") {
-      options.width = 96, options.height = 54, options.repetitions = 1;
-    } else if (i + 1 == argc) {
-      return false;
-    } else if (argument == "--json") {
-      options.json_file = argv[++i];
-    } else if (argument == "--methods") {
-      options.methods = argv[++i];
-    } else if (argument == "--repetitions") {
-      options.repetitions = std::max(std::atoi(argv[++i]), 1);
-    } else if (argument != "--size" || std::sscanf(argv[++i], "%dx%d", &options.width, &options.height) != 2) {
-      return false;
-    }
-  }
-  return options.width > 0 && options.height > 0;
+  return {{"methods", rows}};
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  Options options;
-  if (!parse(argc, argv, options)) {
-    std::fprintf(stderr,
-                 "usage: bench_blur_cost [--smoke] [--json FILE] [--size WIDTHxHEIGHT] [--repetitions N] "
-                 "[--methods A,B]\n");
-    return 64;
-  }
+  tests::CostOptions options;
+  if (!tests::parse(argc, argv, options)) return 64;
   tests::SceneSource source(tests::find_scene("crossing"), {options.width, options.height, 1}, 1, 8);
   Frames frames;
   const auto load = [&](int f) {
@@ -136,18 +103,11 @@ int main(int argc, char** argv) {
   };
   load(kFrame);
   const double longest_px = tests::longest_half_exposure_px(frames.at(kFrame));
-  std::vector<Timed> methods = timed_methods(options.methods, longest_px, options.height);
+  std::vector<Timed> methods = timed_methods(longest_px, options.height);
   for (const Timed& method : methods)
     for (int f = kFrame - method.needs().frames_before; f <= kFrame + method.needs().frames_after; ++f)
       if (!frames.contains(f)) load(f);
   std::printf("crossing, %d x %d, longest half exposure %.1f px, medians of %d turns\n", options.width, options.height,
               longest_px, options.repetitions);
-  params::Json runs = params::Json::array();
-  const int all_threads = thread_count();
-  for (const int threads : {1, all_threads}) {
-    if (threads == 1 && !runs.empty()) break;
-    set_thread_count(threads);
-    runs.push_back(measure(methods, frames, options.repetitions));
-  }
-  if (!options.json_file.empty()) std::ofstream(options.json_file) << runs.dump(2) << "\n";
+  tests::with_one_and_all_threads(options, [&] { return measure(methods, frames, options.repetitions); });
 }
