@@ -38,6 +38,8 @@ std::unique_ptr<Stage> make_stage(const temporal::TemporalBlurParams& params);
 std::unique_ptr<Stage> make_stage(const temporal::TemporalWindowParams& params);
 std::unique_ptr<Stage> make_stage(const ao::ApplyAoParams& params);
 std::unique_ptr<Stage> make_stage(const motionblur::ScalableBlurParams& params);
+std::unique_ptr<Stage> make_stage(const motionblur::Mcguire2012Params& params);
+std::unique_ptr<Stage> make_stage(const motionblur::Guertin2014Params& params);
 
 inline std::unique_ptr<Stage> make_stage(const preset::StageParams& params) {
   return std::visit([](const auto& p) { return make_stage(p); }, params);

@@ -12,6 +12,8 @@
 #include "core/filter/bilateral_blur.h"
 #include "core/filter/bilateral_upsample.h"
 #include "core/filter/cross_bilateral_blur.h"
+#include "core/motionblur/guertin2014.h"
+#include "core/motionblur/mcguire2012.h"
 #include "core/motionblur/scalable_blur.h"
 #include "core/preset/accumulative_ssao.h"
 #include "core/preset/temporal_refinement.h"
@@ -29,7 +31,7 @@ using StageParams =
                  ao::GrowingCircleParams, AccumulativeSsaoParams, TemporalRefinementParams, filter::BilateralBlurParams,
                  filter::BilateralUpsampleParams, filter::CrossBilateralBlurParams, temporal::SelectiveTemporalParams,
                  temporal::TemporalBlurParams, temporal::TemporalWindowParams, ao::ApplyAoParams,
-                 motionblur::ScalableBlurParams>;
+                 motionblur::ScalableBlurParams, motionblur::Mcguire2012Params, motionblur::Guertin2014Params>;
 
 /// Calls `visit(std::type_identity<Params>{})` for every method in the list's order.
 template <class Visit>

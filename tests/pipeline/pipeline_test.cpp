@@ -103,15 +103,21 @@ preset::Preset meant_at_36_lines(const std::string& name) {
 
 TEST(Run, EveryShippedPresetRunsAndStaysInRange) {
   for (const std::string& name : preset::shipped_presets()) {
-    const MemorySink sink = run_blades(meant_at_36_lines(name), {3, 4});
+    const preset::Preset preset = meant_at_36_lines(name);
+    const bool makes_ao = std::ranges::any_of(preset.stages, [](const auto& stage) { return stage.id == "ao"; });
+    const Outputs outputs = makes_ao ? Outputs{"AO", true, {}} : Outputs{};
+    const MemorySink sink = run_blades(preset, {3, 4}, kPrerollAll, outputs);
     for (const auto& [frame, planes] : sink.planes) {
-      const Plane& ao = planes.at("AO");
       const Plane& red = planes.at("R");
+      for (int y = 0; y < red.height(); ++y)
+        for (int x = 0; x < red.width(); ++x)
+          ASSERT_TRUE(red(x, y) >= 0 && red(x, y) <= 0.5001F) << name << " " << x << "," << y;
+      if (!makes_ao) continue;
+      const Plane& ao = planes.at("AO");
       double darkest = 1;
       for (int y = 0; y < ao.height(); ++y)
         for (int x = 0; x < ao.width(); ++x) {
           ASSERT_TRUE(ao(x, y) >= 0 && ao(x, y) <= 1) << name << " " << x << "," << y;
-          ASSERT_TRUE(red(x, y) >= 0 && red(x, y) <= 0.5001F) << name << " " << x << "," << y;
           darkest = std::min<double>(darkest, ao(x, y));
         }
       EXPECT_LT(darkest, 0.9) << name << ": the blades occlude the wall";
