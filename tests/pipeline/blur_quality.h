@@ -32,8 +32,8 @@ inline constexpr BlurMethod kBlurMethods[] = {
     {.name = "none"},
     {.name = "vv-current-gen", .preset = "vicarious-visions-current-gen", .has_clamp = true},
     {.name = "vv-dx11", .preset = "vicarious-visions-dx11", .has_clamp = true},
-    {.name = "mcguire2012", .method = "mcguire2012", .has_clamp = true},
-    {.name = "guertin2014", .method = "guertin2014", .has_clamp = true},
+    {.name = "mcguire2012", .preset = "mcguire2012", .has_clamp = true},
+    {.name = "guertin2014", .preset = "guertin2014", .has_clamp = true},
 };
 
 /// One stage, "motion_blur".
