@@ -24,4 +24,12 @@ inline void half_velocity_row(const HalfVelocityKernel& k, VelocityRow prev_row,
   }
 }
 
+inline void at_8_bits_row(const float* from, float max_radius, int width, float* out) {
+  using namespace lanes;
+  for (int i = 0; i < width; i += kLanes) {
+    const Float stored = round(255.0F * sat(0.5F * (load(from + i) / max_radius) + 0.5F));
+    store(out + i, (stored / 255.0F * 2.0F - 1.0F) * max_radius);
+  }
+}
+
 }  // namespace aftershade::motionblur

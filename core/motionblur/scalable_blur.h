@@ -2,17 +2,27 @@
 #include <span>
 #include <string_view>
 
-#include "core/image/plane.h"
-#include "core/image/window.h"
-#include "core/motionblur/half_velocity.h"
+#include "core/motionblur/dilation.h"
+#include "core/motionblur/gather.h"
 #include "core/motionblur/motion.h"
-#include "core/motionblur/tile_max.h"
 #include "core/params/table.h"
 
 namespace aftershade::motionblur {
 
 enum class Jitter { checkerboard, random4x4 };
-enum class Directions { neighbourhood, alternate };
+enum class Directions {
+  neighbourhood,  ///< v_N alone
+  alternate,      ///< v_N and v_C in turn
+  three,          ///< v_N, v_C and the tile's own maximum in turn (slide "Scale for Quality"), outwards from the centre
+};
+enum class DepthComparison {
+  soft_extent,  ///< differences over soft_depth_extent_m, as in the slides
+  relative,     ///< differences over the nearer depth (Guertin et al. 2014, algorithms 3.1): no length of the scene's
+};
+enum class VelocityBits {
+  exact,
+  eight,  ///< literally as on slide "Render Velocity": -K to K scaled to 0 to 1 in 8 bits, in which 0 is K / 255
+};
 
 /// Vicarious Visions' scalable motion blur (seed 004), the gather of McGuire et al. 2012 with alternating directions.
 /// Velocities are half-exposure vectors in pixels, clamped to K; tiles are K x K; neighbour max is 3x3 tiles.
@@ -27,30 +37,30 @@ struct ScalableBlurParams : MotionParams {
   static constexpr std::string_view method = "scalable-motion-blur";
   static constexpr std::string_view summary = "Vicarious Visions' scalable motion blur (SIGGRAPH 2012)";
   int taps = 9;              ///< with the centre; odd
-  float max_radius_px = 18;  ///< K at the reference height, rounded up
+  float max_radius_px = 18;  ///< K at the reference height, rounded up; 0: the longest motion of the frame
   float reference_height_px = 1080;
   Jitter jitter = Jitter::random4x4;
+  int passes = 1;  ///< each with other jitter; their mean counts
   Directions directions = Directions::alternate;
+  Dilation dilation = Dilation::square;
+  DepthComparison comparison = DepthComparison::soft_extent;
   float soft_depth_extent_m = 0.1F;  ///< ours: not stated by the seed
   float background_weight = 1, foreground_weight = 1, both_moving_weight = 1;
   float centre_weight = 1;  ///< factor of McGuire's 1 / |v_C|: higher is subtler, lower is thicker
+  VelocityBits velocity_bits = VelocityBits::exact;
   static const params::Table& table();
   bool operator==(const ScalableBlurParams&) const = default;
 };
 
-/// K in pixels for an image of this height.
+/// K in pixels for an image of this height, if max_radius_px is not 0.
 int max_radius_px(const ScalableBlurParams& params, int display_height);
+/// K in pixels; with max_radius_px 0 the longest velocity, rounded up, or the planes' longer side if that is less.
+int radius_px(const ScalableBlurParams& params, const HalfVelocity& velocity, int display_height);
 
-struct BlurInput {
-  ConstPlaneView depth;  ///< metres, or empty: everything at one depth
-  const HalfVelocity* velocity;
-  Window window;
-  int display_height;
-};
 /// Blurs `channels` together, in place: every plane is as large as `window`. Pixels whose 3x3 tiles move at most half a
 /// pixel keep their bits, and so does a pixel with a channel that is not finite. `tiles`, if not null, receives the
-/// neighbour-max velocity at tile resolution.
-void scalable_motion_blur(const ScalableBlurParams& params, const BlurInput& input, std::span<Plane* const> channels,
+/// neighbour-max velocity at tile resolution; a tile is radius_px() large.
+void scalable_motion_blur(const ScalableBlurParams& params, const GatherInput& input, std::span<Plane* const> channels,
                           HalfVelocity* tiles = nullptr);
 
 }  // namespace aftershade::motionblur

@@ -1,137 +1,136 @@
 #pragma once
 #include "core/math/sampling.h"
-#include "core/motionblur/gather_source.h"
-#include "core/simd/lanes.h"
+#include "core/motionblur/gather_kernel.h"
+#include "core/motionblur/motion_kernel.h"
+#include "core/motionblur/scalable_blur.h"
 
 /// The gather of Vicarious Visions' motion blur (seed 004), one row.
 namespace aftershade::motionblur {
 
-/// Below it the direction of the centre's velocity says nothing (algorithms 2.4, G3D's threshold).
+/// Below it the direction of a velocity says nothing (algorithms 2.4, G3D's threshold).
 inline constexpr float kLeastDirection_px = 1.5F;
 
-/// The planes have one size, and `stride` floats from row to row.
 struct ScalableBlurKernel {
-  static constexpr int kChannels = 4;
-  int width, height, stride;
   int origin_x, origin_y;  ///< absolute coordinates of pixel (0, 0): the jitter is tied to them
-  const float* speed;      ///< as GatherSource gives it
-  const float* depth;      ///< likewise
-  int channels;            ///< 1 to kChannels
-  const float* source[kChannels];
-  int taps;  ///< odd
-  bool checkerboard, alternate;
+  int taps;                ///< odd
+  int passes;
+  bool checkerboard;
+  Directions directions;
+  bool relative;              ///< compares depths by their ratio, not over the soft extent
   float inverse_soft_extent;  ///< 1 / metres
   float background_weight, foreground_weight, both_moving_weight, centre_weight;
 };
 
-/// The row's own data.
+/// The row's own data: the velocity v_C of the pixels, v_N of the tiles around each pixel, and of its own tile.
 struct ScalableBlurRow {
-  const float *velocity_x, *velocity_y;    ///< of the pixels: v_C
-  const float *neighbour_x, *neighbour_y;  ///< of the tiles around each pixel: v_N
-  float* target[ScalableBlurKernel::kChannels];
+  VelocityRow own, neighbourhood, tile;
 };
 
 namespace detail {
-using namespace lanes;
+using namespace gathering;
 
-struct Vector {
-  Float x, y;
-};
-
-/// What the comparison reads of a pixel.
-struct Point {
-  Float speed, depth;
-};
+/// How far the sample lies behind the centre, in depth extents. Slides: over a soft extent; Guertin et al. 2014: as a
+/// share of the nearer depth (algorithms 3.1).
+inline Float behind_by(const ScalableBlurKernel& k, Float centre_depth, Float sample_depth) {
+  const Float difference = sample_depth - centre_depth;
+  return k.relative ? difference / min(centre_depth, sample_depth) : difference * k.inverse_soft_extent;
+}
 
 /// Slides "Foreground vs. Background" to "Mutually Blurry Samples": the cases are not exclusive, the third is mixed in.
 /// Paper and slides differ in the sign of z; with positive z, F = sat(1 - (z_S - z_C) / E), B the reverse (algorithms
 /// 14 no. 20).
-inline Float tap_weight(const ScalableBlurKernel& k, Point centre, Point sample, Float distance) {
-  const Float behind_by = (sample.depth - centre.depth) * k.inverse_soft_extent;
-  const Float background = sat(1.0F + behind_by) * sat(1.0F - distance / centre.speed);
-  const Float foreground = sat(1.0F - behind_by) * sat(1.0F - distance / sample.speed);
-  const Mask both_moving = (sample.speed >= distance) & (centre.speed >= distance);
+inline Float tap_weight(const ScalableBlurKernel& k, Float centre_speed, Float centre_depth, const Tap& sample,
+                        Float distance) {
+  const Order order = soft_order(behind_by(k, centre_depth, sample.depth));
+  const Float background = order.behind * cone(distance, centre_speed);
+  const Float foreground = order.before * cone(distance, sample.speed);
+  const Mask both_moving = (sample.speed >= distance) & (centre_speed >= distance);
   return k.background_weight * background + k.foreground_weight * foreground +
          select(both_moving, Float(k.both_moving_weight), Float(0.0F));
 }
 
-/// In (-0.5, 0.5), a share of the tap spacing. Slides: checkerboard (its +-1/4 is G3D's, algorithms 2.3), or 4x4.
-inline Float jitter_of(const ScalableBlurKernel& k, int x, int y) {
+/// In (-0.5, 0.5), a share of the tap spacing. Slides: checkerboard (its +-1/4 is G3D's, algorithms 2.3), or 4x4. Every
+/// further pass shifts it by an even share of the spacing.
+inline Float jitter_of(const ScalableBlurKernel& k, int x, int y, int pass) {
   const Int column = iota(x) + Int(k.origin_x), row = Int(y) + Int(k.origin_y);
-  if (k.checkerboard) return 0.5F * to_float((column + row) & Int(1)) - 0.25F;
-  return gather(kBayer4x4.data(), ((row & Int(3)) << 2) + (column & Int(3))) - 0.5F;
+  const Float first = k.checkerboard ? 0.5F * to_float((column + row) & Int(1)) - 0.25F
+                                     : gather(kBayer4x4.data(), ((row & Int(3)) << 2) + (column & Int(3))) - 0.5F;
+  if (pass == 0) return first;
+  const Float shifted = first + static_cast<float>(pass) / static_cast<float>(k.passes);
+  return select(shifted < 0.5F, shifted, shifted - 1.0F);
 }
 
-/// The centre's direction with the neighbourhood's length, where the centre has a direction (algorithms 2.4, 14 no.
-/// 19).
-inline Vector second_direction(const ScalableBlurKernel& k, Vector centre, Float speed, Vector neighbour,
-                               Float length) {
-  if (!k.alternate) return neighbour;
+/// A velocity's direction with the neighbourhood's length, where it has a direction (algorithms 2.4, 14 no. 19); else
+/// the neighbourhood's.
+inline Vector directed(VelocityRow row, int x, Vector neighbourhood, Float search_length) {
+  const Vector v{load(row.x + x), load(row.y + x)};
+  const Float speed = length(v);
   const Mask known = speed >= kLeastDirection_px;
-  const Float scale = length / max(speed, kLeastDirection_px);
-  return {select(known, centre.x * scale, neighbour.x), select(known, centre.y * scale, neighbour.y)};
+  const Float scale = search_length / max(speed, kLeastDirection_px);
+  return {select(known, v.x * scale, neighbourhood.x), select(known, v.y * scale, neighbourhood.y)};
 }
 
-/// What one group of pixels has gathered so far. Colours are summed as differences from the centre's: where they agree
-/// the result is the centre's value to the bit (an alpha of 1 stays 1).
-struct Gathered {
-  Float centre[ScalableBlurKernel::kChannels];
-  Float difference[ScalableBlurKernel::kChannels];
-  Float weight;
-};
-
-/// The tap at `offset` from pixel (x, y), read at the nearest pixel. Its distance is that of the tap, not of the pixel,
-/// as in the slides, which do not round; it is also what algorithms 3.5 was computed with.
-inline void add_tap(const ScalableBlurKernel& k, Int x, Int y, Vector offset, Float distance, Point centre,
-                    Gathered& sum) {
-  const Int sx = x + to_int(round(offset.x)), sy = y + to_int(round(offset.y));
-  const Mask inside = (sx >= Int(0)) & (sx < Int(k.width)) & (sy >= Int(0)) & (sy < Int(k.height));
-  const Int index = clamp(sy, 0, k.height - 1) * Int(k.stride) + clamp(sx, 0, k.width - 1);
-  const Float speed = gather(k.speed, index);
-  const Mask usable = inside & (speed > 0.0F);
-  const Point sample{max(speed, kLeastRadius_px), gather(k.depth, index)};
-  const Float weight = select(usable, tap_weight(k, centre, sample, distance), 0.0F);
-  sum.weight += weight;
-  for (int c = 0; c < k.channels; ++c) {
-    const Float difference = gather(k.source[c], index) - sum.centre[c];
-    sum.difference[c] += select(usable, weight * difference, 0.0F);
+/// What the taps are taken along, and in which order.
+struct Search {
+  Vector neighbourhood, centre, tile;
+  Float length;
+  Directions directions;
+  const Vector& of_tap(int i, int middle) const {
+    const int steps = i < middle ? middle - i : i - middle;
+    if (directions == Directions::three) return steps % 3 == 1 ? neighbourhood : steps % 3 == 2 ? centre : tile;
+    return directions == Directions::alternate && (i & 1) != 0 ? centre : neighbourhood;
   }
+};
+inline Search search_of(Directions directions, const ScalableBlurRow& row, int x) {
+  const Vector n{load(row.neighbourhood.x + x), load(row.neighbourhood.y + x)};
+  Search search{n, n, n, length(n), directions};
+  if (directions != Directions::neighbourhood) search.centre = directed(row.own, x, n, search.length);
+  if (directions == Directions::three) search.tile = directed(row.tile, x, n, search.length);
+  return search;
+}
+
+/// The distance of a tap is that of the place, not of the pixel that is read there, as in the slides, which do not
+/// round; it is also what algorithms 3.5 was computed with.
+inline Gathered one_pass(const ScalableBlurKernel& k, const GatherPlanes& p, const Search& search, int x, int y,
+                         int pass) {
+  const int middle = (k.taps - 1) / 2, index = y * p.stride + x;
+  const Float speed = max(load(p.speed + index), kLeastRadius_px), depth = load(p.depth + index);
+  const Float spacing = 2.0F / static_cast<float>(k.taps + 1), jitter = jitter_of(k, x, y, pass);
+  Gathered sum = gathered(p, index, k.centre_weight / speed);  // algorithms 2.2: w = 1 / |V[X]|
+  for (int i = 0; i < k.taps; ++i) {
+    if (i == middle) continue;
+    // algorithms 2.2: mix(-1, 1, (i + j + 1) / (S + 1))
+    const Float t = (Float(static_cast<float>(i - middle)) + jitter) * spacing;
+    const Vector& v = search.of_tap(i, middle);
+    const Tap tap = tap_at(p, iota(x), Int(y), {v.x * t, v.y * t});
+    add(p, tap, tap_weight(k, speed, depth, tap, search.length * abs(t)), sum);
+  }
+  return sum;
 }
 
 }  // namespace detail
 
-/// Blurs row y. Pixels that do not move are left as they are in `target`, which holds the source's values.
-inline void scalable_blur_row(const ScalableBlurKernel& k, const ScalableBlurRow& row, int y) {
-  using namespace lanes;
+/// Blurs row y: the mean of all passes. Pixels that do not move are left as they are in `target`, which holds the
+/// source's values.
+inline void scalable_blur_row(const ScalableBlurKernel& k, const GatherPlanes& p, const ScalableBlurRow& row,
+                              float* const* target, int y) {
   using namespace detail;
-  const Float spacing = 2.0F / static_cast<float>(k.taps + 1);
-  const int middle = (k.taps - 1) / 2, row_start = y * k.stride;
-  for (int x = 0; x < k.width; x += kLanes) {
-    const Vector neighbour{load(row.neighbour_x + x), load(row.neighbour_y + x)};
-    const Float length = sqrt(neighbour.x * neighbour.x + neighbour.y * neighbour.y);
-    const Float speed = load(k.speed + row_start + x);
-    const Mask moving =
-        (length > kLeastRadius_px) & (speed > 0.0F);  // slide "Current Gen Implementation": branch on velocity
+  for (int x = 0; x < p.width; x += kLanes) {
+    const Search search = search_of(k.directions, row, x);
+    // slide "Current Gen Implementation": branch on velocity
+    const Mask moving = (search.length > kLeastRadius_px) & (load(p.speed + y * p.stride + x) > 0.0F);
     if (!any(moving)) continue;
-    const Point centre{max(speed, kLeastRadius_px), load(k.depth + row_start + x)};
-    const Vector own{load(row.velocity_x + x), load(row.velocity_y + x)};
-    const Vector second = second_direction(k, own, speed, neighbour, length);
-    const Float jitter = jitter_of(k, x, y);
-    Gathered sum;
-    sum.weight = k.centre_weight / centre.speed;  // algorithms 2.2: w = 1 / |V[X]|
-    for (int c = 0; c < k.channels; ++c) {
-      sum.centre[c] = load(k.source[c] + row_start + x);
-      sum.difference[c] = 0.0F;
+    Gathered sum = one_pass(k, p, search, x, y, 0);
+    if (k.passes > 1) {
+      Float difference[GatherPlanes::kChannels] = {};
+      for (int pass = 0; pass < k.passes; ++pass) {
+        if (pass > 0) sum = one_pass(k, p, search, x, y, pass);
+        for (int c = 0; c < p.channels; ++c) difference[c] += sum.difference[c] / sum.weight;
+      }
+      for (int c = 0; c < p.channels; ++c) sum.difference[c] = difference[c];
+      sum.weight = static_cast<float>(k.passes);
     }
-    for (int i = 0; i < k.taps; ++i) {
-      if (i == middle) continue;
-      const Float t =
-          (Float(static_cast<float>(i - middle)) + jitter) * spacing;  // algorithms 2.2: mix(-1, 1, (i+j+1)/(S+1))
-      const Vector& v = (i & 1) != 0 ? second : neighbour;
-      add_tap(k, iota(x), y, {v.x * t, v.y * t}, length * abs(t), centre, sum);
-    }
-    for (int c = 0; c < k.channels; ++c)
-      store(row.target[c] + x, select(moving, sum.centre[c] + sum.difference[c] / sum.weight, sum.centre[c]));
+    store_mean(p, sum, moving, target, x);
   }
 }
 

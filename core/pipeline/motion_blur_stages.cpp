@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/motionblur/tile_max.h"
 #include "core/pipeline/blur_stage.h"
 
 namespace aftershade::pipeline {
@@ -13,24 +12,29 @@ class ScalableBlur final : public BlurStage {
   explicit ScalableBlur(const motionblur::ScalableBlurParams& params) : BlurStage(params), params_(params) {}
 
  private:
-  int radius_px(const BlurScene& scene) const { return motionblur::max_radius_px(params_, scene.display.height()); }
+  /// Of half-exposure velocities.
+  float limit_px(const BlurScene& scene) const {
+    const int limit = params_.max_radius_px > 0 ? motionblur::max_radius_px(params_, scene.display.height())
+                                                : std::max(scene.window.width(), scene.window.height());
+    return static_cast<float>(limit);
+  }
 
   int reach_px(const BlurScene& scene) const override {
     const float half = 0.5F * scene.shutter_frames;
     const float longest = motionblur::longest_displacement_px(scene.motion, {-half, half}, motionblur::Path::straight);
-    return static_cast<int>(std::ceil(std::min(longest, static_cast<float>(radius_px(scene)))));
+    return static_cast<int>(std::ceil(std::min(longest, limit_px(scene))));
   }
 
   void blur(Work& work, const BlurScene& scene, std::span<Layer* const> layers) override {
-    const int radius = radius_px(scene);
     const motionblur::HalfVelocity velocity =
-        motionblur::half_velocity(scene.motion, scene.shutter_frames, static_cast<float>(radius));
-    const motionblur::BlurInput input{scene.depth, &velocity, scene.window, scene.display.height()};
+        motionblur::half_velocity(scene.motion, scene.shutter_frames, limit_px(scene));
+    const int height = scene.display.height();
+    const motionblur::GatherInput input{scene.depth, &velocity, scene.window, height};
     motionblur::HalfVelocity tiles;
     for (Layer* layer : layers)
       motionblur::scalable_motion_blur(params_, input, channels_of(*layer),
                                        work.options.diagnostics ? &tiles : nullptr);
-    if (work.options.diagnostics) add_tiles(work.frame, tiles, radius);
+    if (work.options.diagnostics) add_tiles(work.frame, tiles, motionblur::radius_px(params_, velocity, height));
   }
 
   /// The neighbourhood's velocity at every pixel.

@@ -65,8 +65,8 @@ inline std::vector<Plane> blurred(const motionblur::ScalableBlurParams& params, 
   std::vector<Plane*> pointers;
   for (const Plane& plane : scene.channels) out.push_back(copy_of(plane));
   for (Plane& plane : out) pointers.push_back(&plane);
-  const motionblur::BlurInput input{scene.depth, &scene.velocity, scene.window,
-                                    static_cast<int>(params.reference_height_px)};
+  const motionblur::GatherInput input{scene.depth, &scene.velocity, scene.window,
+                                      static_cast<int>(params.reference_height_px)};
   motionblur::scalable_motion_blur(params, input, pointers);
   return out;
 }

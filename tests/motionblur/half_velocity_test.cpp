@@ -74,5 +74,35 @@ TEST(HalfVelocity, NeverExceedsTheRadius) {
     }
 }
 
+TEST(HalfVelocity, InEightBitsIsWithinHalfAStep) {
+  constexpr float kLongest = 18, kStep = 2 * kLongest / 255;
+  motionblur::HalfVelocity v{Plane(64, 2), Plane(64, 2)};
+  for (int i = 0; i < 64; ++i) v.x(i, 0) = static_cast<float>(i - 32) * 0.55F, v.y(i, 1) = -v.x(i, 0);
+  v.x(0, 1) = -kLongest, v.x(1, 1) = kLongest;
+  const motionblur::HalfVelocity stored = motionblur::at_8_bits(v, kLongest);
+  for (int i = 0; i < 64; ++i) {
+    EXPECT_NEAR(stored.x(i, 0), v.x(i, 0), 0.5001F * kStep);
+    EXPECT_NEAR(stored.y(i, 1), v.y(i, 1), 0.5001F * kStep);
+    EXPECT_NEAR(std::remainder(stored.x(i, 0) + kLongest, kStep), 0, 1e-5) << "a step of 255";
+  }
+  EXPECT_EQ(stored.x(0, 1), -kLongest);
+  EXPECT_EQ(stored.x(1, 1), kLongest);
+  EXPECT_NEAR(stored.x(2, 1), 0.5F * kStep, 1e-5) << "there is no 0 among 256 values";
+}
+
+TEST(HalfVelocity, TheLongestIsFound) {
+  motionblur::HalfVelocity v{Plane(9, 7), Plane(9, 7)};
+  EXPECT_EQ(motionblur::longest_px(v), 0);
+  v.x(8, 6) = -3, v.y(8, 6) = 4, v.x(1, 1) = 4.5F;
+  EXPECT_EQ(motionblur::longest_px(v), 5);
+}
+
+TEST(HalfVelocity, OfCompleteMotionIsHalfTheShuttersShareOfItsMean) {
+  motionblur::Motion motion{filled(-7), filled(3), filled(9), filled(-1)};
+  const motionblur::HalfVelocity v = motionblur::half_velocity(motion, 0.5F, 100);
+  EXPECT_EQ(v.x(2, 2), 2);
+  EXPECT_EQ(v.y(2, 2), -0.5F);
+}
+
 }  // namespace
 }  // namespace aftershade::tests

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 
 #include "core/parallel/rows.h"
@@ -74,6 +75,103 @@ TEST(ScalableBlur, AgreesWithTheSlidesForOtherWeights) {
   ScalableBlurParams soft = unscaled(12);
   soft.soft_depth_extent_m = 1;
   expect_like_reference(soft, 12, scene);
+}
+
+/// What the slides name to scale for quality, one by one and together.
+TEST(ScalableBlur, AgreesWithTheSlidesForEveryQualityKnob) {
+  const BlurScene scene = patchy_scene({-5, 3, 57, 44}, 9);
+  const std::vector<Plane> usual = blurred(unscaled(9), scene);
+  const std::function<void(ScalableBlurParams&)> knobs[] = {
+      [](auto& p) { p.directions = Directions::three; },
+      [](auto& p) { p.dilation = motionblur::Dilation::directional; },
+      [](auto& p) { p.dilation = motionblur::Dilation::line; },
+      [](auto& p) { p.passes = 3; },
+      [](auto& p) { p.comparison = motionblur::DepthComparison::relative; },
+      [](auto& p) { p.velocity_bits = motionblur::VelocityBits::eight; }};
+  ScalableBlurParams all = unscaled(9);
+  for (const auto& turn : knobs) {
+    ScalableBlurParams one = unscaled(9);
+    turn(one);
+    turn(all);
+    expect_like_reference(one, 9, scene);
+    EXPECT_FALSE(same_bits(blurred(one, scene)[0], usual[0])) << "the knob counts";
+  }
+  expect_like_reference(all, 9, scene);
+  all.jitter = Jitter::checkerboard;
+  all.passes = 2;
+  expect_like_reference(all, 9, scene);
+}
+
+TEST(ScalableBlur, WithoutALimitItIsThatOfTheLongestVelocity) {
+  const BlurScene scene = patchy_scene({0, 0, 57, 44}, 12);
+  const auto longest = static_cast<int>(std::ceil(motionblur::longest_px(scene.velocity)));
+  ASSERT_GT(longest, 5);
+  EXPECT_EQ(motionblur::radius_px(unscaled(0), scene.velocity, 1), longest);
+  EXPECT_EQ(motionblur::radius_px(unscaled(30), scene.velocity, 1), 30);
+  EXPECT_TRUE(same_bits(blurred(unscaled(0), scene)[0], blurred(unscaled(static_cast<float>(longest)), scene)[0]));
+  BlurScene stray = patchy_scene({0, 0, 57, 44}, 12);
+  stray.velocity.x(3, 3) = 1e6F;
+  EXPECT_EQ(motionblur::radius_px(unscaled(0), stray.velocity, 1), 58) << "no farther than the picture is wide";
+  const BlurScene still = make_blur_scene({0, 0, 7, 7}, [](int, int) { return BlurPixel{1, 0, 0, {1}}; });
+  EXPECT_EQ(motionblur::radius_px(unscaled(0), still.velocity, 1), 1);
+}
+
+/// A still pixel between an object that moves across to it and a faster one that moves along the border.
+TEST(ScalableBlur, TheTilesOwnMaximumBringsWhatTheNeighboursHides) {
+  const BlurScene scene = make_blur_scene({0, 0, 47, 47}, [](int x, int y) {
+    const bool object = x >= 18 && x < 21 && y >= 16 && y < 32, faster = x >= 34 && x < 38;
+    return BlurPixel{object || faster ? 1.0F : 2.0F, object ? 9.0F : 0, faster ? 14.0F : 0, {object ? 1.0F : 0.0F}};
+  });
+  ScalableBlurParams params = unscaled(16);
+  params.taps = 27;
+  const auto light = [&](Directions directions) {
+    params.directions = directions;
+    const std::vector<Plane> out = blurred(params, scene);
+    double sum = 0;
+    for (int x = 23; x < 28; ++x) sum += out[0](x, 24);
+    return sum;
+  };
+  EXPECT_EQ(light(Directions::neighbourhood), 0);
+  EXPECT_EQ(light(Directions::alternate), 0) << "a still pixel has no direction of its own";
+  EXPECT_GT(light(Directions::three), 0.2);
+}
+
+TEST(ScalableBlur, SixteenPassesLeaveNoPatternOfTheJitter) {
+  const BlurScene scene = make_blur_scene({0, 0, 63, 31}, [](int x, int) {
+    return BlurPixel{3, 11, 0, {noise(x, 0, 1, 0, 1)}};
+  });
+  const auto unevenness = [&](int passes) {
+    ScalableBlurParams params = unscaled(12);
+    params.passes = passes;
+    const std::vector<Plane> out = blurred(params, scene);
+    double most = 0;
+    for (int x = 0; x < 64; ++x)
+      for (int y = 9; y < 13; ++y) most = std::max<double>(most, std::abs(out[0](x, y) - out[0](x, 8)));
+    return most;
+  };
+  EXPECT_GT(unevenness(1), 0.05);
+  EXPECT_LT(unevenness(16), 1e-5) << "every pixel has had every jitter";
+}
+
+TEST(ScalableBlur, ARelativeComparisonKnowsNoUnitOfLength) {
+  const BlurScene scene = patchy_scene({0, 0, 47, 39}, 9);
+  BlurScene large = patchy_scene({0, 0, 47, 39}, 9);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 48; ++x) large.depth(x, y) *= 1024;
+  ScalableBlurParams params = unscaled(9);
+  EXPECT_FALSE(same_bits(blurred(params, scene)[0], blurred(params, large)[0]));
+  params.comparison = motionblur::DepthComparison::relative;
+  EXPECT_TRUE(same_bits(blurred(params, scene)[0], blurred(params, large)[0]));
+}
+
+TEST(ScalableBlur, AStillPictureKeepsItsBitsInEightBitsToo) {
+  const BlurScene still = patchy_scene({0, 0, 47, 39}, 0);
+  BlurScene scene = make_blur_scene({0, 0, 47, 39}, [&](int x, int y) {
+    return BlurPixel{1, 0, 0, {still.channels[0](x, y)}};
+  });
+  ScalableBlurParams params = unscaled(18);
+  params.velocity_bits = motionblur::VelocityBits::eight;
+  EXPECT_TRUE(same_bits(blurred(params, scene)[0], scene.channels[0])) << "0 comes back as K / 255, below half a pixel";
 }
 
 TEST(ScalableBlur, AgreesWithTheSlidesOnHoles) {
@@ -249,7 +347,7 @@ TEST(ScalableBlurParams, RadiusScalesWithTheHeightAndIsRoundedUp) {
 TEST(ScalableBlurParams, TableReachesEveryMember) {
   using params::Kind;
   const ScalableBlurParams usual;
-  EXPECT_EQ(ScalableBlurParams::table().size(), 23U);
+  EXPECT_EQ(ScalableBlurParams::table().size(), 27U);
   for (const params::Record& record : ScalableBlurParams::table()) {
     ScalableBlurParams changed;
     params::Json value = record.kind == Kind::boolean ? params::Json(!record.default_value.get<bool>())

@@ -238,6 +238,15 @@ TEST(BlurStage, NamesWhatIsMissing) {
   }
 }
 
+TEST(BlurStage, WithoutALimitBlursAsFarAsTheLongestMotion) {
+  const Plane far =
+      blurred({"motion_blur.max_radius_px=0", "motion_blur.shutter_frames=2"}, kVectors, moving_frame).red;
+  const Plane as_far = blurred({"motion_blur.max_radius_px=180", "motion_blur.shutter_frames=2"}, kVectors,
+                               moving_frame)
+                           .red;  // 6 px at 36 lines
+  EXPECT_TRUE(same_pixels(far, as_far));
+}
+
 /// Overscan is used: what lies outside the display window blurs into it.
 TEST(BlurStage, OverscanBlursIntoThePicture) {
   const auto frame = [](int number) {
