@@ -1,5 +1,6 @@
 #include "core/motionblur/guertin2014.h"
 
+#include "core/motionblur/dilation.h"
 #include "core/motionblur/guertin2014_kernel.h"
 #include "core/motionblur/guertin_tiles.h"
 #include "core/motionblur/jitter.h"
@@ -13,8 +14,9 @@ const params::Table& Guertin2014Params::table() {
   static const params::Table table =
       add_motion(builder)
           .add("taps", &P::taps, {2, 999}, "Samples per pixel beside the centre; more give a smoother blur.")
-          .add("max_radius_px", &P::max_radius_px, {1, 1000},
-               "Longest blur to either side of a pixel at the reference height; tile size and search radius too.")
+          .add("max_radius_px", &P::max_radius_px, {0, 1000},
+               "Longest blur to either side of a pixel at the reference height; tile size and search radius too. 0: "
+               "the frame's longest motion.")
           .add("reference_height_px", &P::reference_height_px, {1, 100000},
                "Image height that max_radius_px is meant for: at another height it scales and is rounded up.")
           .add("tap_jitter", &P::tap_jitter, {0, 1},
@@ -33,10 +35,6 @@ const params::Table& Guertin2014Params::table() {
   return table;
 }
 
-int max_radius_px(const Guertin2014Params& params, int display_height) {
-  return radius_at(params.max_radius_px, params.reference_height_px, display_height);
-}
-
 namespace {
 
 HalfVelocity directions_of(const HalfVelocity& velocity) {
@@ -50,8 +48,9 @@ HalfVelocity directions_of(const HalfVelocity& velocity) {
 }  // namespace
 
 void guertin2014_blur(const Guertin2014Params& params, const GatherInput& input, std::span<Plane* const> channels) {
-  const int radius = max_radius_px(params, input.display_height);
-  const HalfVelocity neighbours = directional_neighbour_max(tile_max(*input.velocity, radius, input.window));
+  const int radius = radius_px(params, *input.velocity, input.display_height);
+  const HalfVelocity neighbours = dilated(Dilation::directional, *input.velocity,
+                                          tile_max(*input.velocity, radius, input.window), radius, input.window);
   if (!any_moves(neighbours)) return;
   const bool even = params.split == TapSplit::even;
   const Plane share = even ? Plane(neighbours.x.width(), neighbours.x.height(), 0.5F) : direction_variance(neighbours);

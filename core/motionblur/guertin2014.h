@@ -14,9 +14,9 @@ enum class TapSplit { even, variance };
 /// fewer seams between tiles and no scale of depth.
 ///
 /// Velocities are half-exposure vectors v in pixels, r at most; |v| counts as half a pixel at least; norm(v) is
-/// v / (|v| + 1e-5). Tiles are r x r; v_max is the longest velocity in the 3x3 tiles, corners only if they move toward
-/// or away from the centre; near borders of tiles a pixel p takes the tile beyond at random, up to tau / 4 tiles away.
-/// With
+/// v / (|v| + 1e-5). Tiles are r x r; v_max is the longest velocity in the 3x3 tiles, of those that move toward
+/// or away from the tile (Dilation::directional); near borders of tiles a pixel p takes the tile beyond at random, up
+/// to tau / 4 tiles away. With
 ///   w_n = norm(v_max), w_p across it, on the side of v_p
 ///   w_c = norm(lerp(w_p, norm(v_p), sat((|v_p| - 0.5) / gamma)))        slow pixels look across the motion
 /// N taps lie at S = p + t |v_max| d, t evenly in -1 to 1, shifted by j eta spacings, j in -1 to 1; d is w_n for taps
@@ -40,7 +40,7 @@ struct Guertin2014Params : MotionParams {
   static constexpr std::string_view method = "guertin2014";
   static constexpr std::string_view summary = "Motion blur of Guertin, McGuire and Nowrouzezahrai (HPG 2014)";
   int taps = 35;                    ///< N
-  float max_radius_px = 40;         ///< r at the reference height, rounded up
+  float max_radius_px = 40;         ///< r at the reference height, rounded up; 0: the longest motion of the frame
   float reference_height_px = 720;  ///< the paper's images
   float tap_jitter = 0.95F;         ///< eta
   float tile_jitter = 1;            ///< tau
@@ -50,9 +50,6 @@ struct Guertin2014Params : MotionParams {
   static const params::Table& table();
   bool operator==(const Guertin2014Params&) const = default;
 };
-
-/// r in pixels for an image of this height.
-int max_radius_px(const Guertin2014Params& params, int display_height);
 
 /// Blurs `channels` together, in place (RGBA premultiplied, scene-linear): every plane is as large as `window`. Pixels
 /// whose 3x3 tiles move at most half a pixel keep their bits, and so does a pixel with a channel that is not finite.

@@ -28,25 +28,7 @@ Direction direction_of(float x, float y) {
   return {x / length, y / length};
 }
 
-bool passes_through(int offset_x, int offset_y, float vx, float vy) {
-  return offset_x == 0 || offset_y == 0 || static_cast<float>(offset_x) * vx * static_cast<float>(offset_y) * vy > 0;
-}
-
 }  // namespace
-
-HalfVelocity directional_neighbour_max(const HalfVelocity& tiles) {
-  HalfVelocity out{copy_of(tiles.x), copy_of(tiles.y)};
-  for (int row = 0; row < tiles.x.height(); ++row)
-    for (int column = 0; column < tiles.x.width(); ++column)
-      for_adjacent(tiles.x, column, row, [&](int x, int y) {
-        const float vx = tiles.x(x, y), vy = tiles.y(x, y);
-        float &best_x = out.x(column, row), &best_y = out.y(column, row);
-        if (!passes_through(x - column, y - row, vx, vy)) return;
-        if (vx * vx + vy * vy <= best_x * best_x + best_y * best_y) return;
-        best_x = vx, best_y = vy;
-      });
-  return out;
-}
 
 Plane direction_variance(const HalfVelocity& neighbours) {
   Plane out(neighbours.x.width(), neighbours.x.height());

@@ -1,12 +1,8 @@
 #pragma once
 #include "core/motionblur/tile_max.h"
 
-/// What Guertin et al. 2014 add to tiles (algorithms 2.1, 3.1).
+/// What Guertin et al. 2014 add to tiles (algorithms 3.1).
 namespace aftershade::motionblur {
-
-/// neighbour_max() without the corner tiles whose motion passes the centre tile by: a corner counts if its velocity
-/// lies within 45 degrees of the line through both tiles, in either sense (the blur is symmetric).
-HalfVelocity directional_neighbour_max(const HalfVelocity& tiles);
 
 /// How much directions differ around each tile, 0 to 1: 1 - mean |w(t) . w(n)| over the adjacent tiles n of the grid,
 /// with w the directions of `neighbours` (0 where nothing moves); 0 if there are none.

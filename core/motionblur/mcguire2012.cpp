@@ -14,8 +14,9 @@ const params::Table& Mcguire2012Params::table() {
           .add("taps", &P::taps, {3, 999},
                "Samples per pixel with the centre; an even number counts as the next odd one, more give a smoother "
                "and more opaque blur.")
-          .add("max_radius_px", &P::max_radius_px, {1, 1000},
-               "Longest blur to either side of a pixel at the reference height; tile size and search radius too.")
+          .add("max_radius_px", &P::max_radius_px, {0, 1000},
+               "Longest blur to either side of a pixel at the reference height; tile size and search radius too. 0: "
+               "the frame's longest motion.")
           .add("reference_height_px", &P::reference_height_px, {1, 100000},
                "Image height that max_radius_px is meant for: at another height it scales and is rounded up.")
           .add("soft_depth_extent_m", &P::soft_depth_extent_m, {1e-5, 10000},
@@ -24,12 +25,8 @@ const params::Table& Mcguire2012Params::table() {
   return table;
 }
 
-int max_radius_px(const Mcguire2012Params& params, int display_height) {
-  return radius_at(params.max_radius_px, params.reference_height_px, display_height);
-}
-
 void mcguire2012_blur(const Mcguire2012Params& params, const GatherInput& input, std::span<Plane* const> channels) {
-  const int radius = max_radius_px(params, input.display_height);
+  const int radius = radius_px(params, *input.velocity, input.display_height);
   const TileGrid grid(radius, input.window);
   const HalfVelocity neighbours = neighbour_max(tile_max(*input.velocity, radius, input.window));
   if (!any_moves(neighbours)) return;

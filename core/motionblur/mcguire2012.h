@@ -31,15 +31,12 @@ struct Mcguire2012Params : MotionParams {
   static constexpr std::string_view method = "mcguire2012";
   static constexpr std::string_view summary = "Motion blur of McGuire et al. (I3D 2012)";
   int taps = 15;                     ///< S, with the centre; odd
-  float max_radius_px = 20;          ///< K at the reference height, rounded up
+  float max_radius_px = 20;          ///< K at the reference height, rounded up; 0: the longest motion of the frame
   float reference_height_px = 720;   ///< ours
   float soft_depth_extent_m = 0.1F;  ///< E
   static const params::Table& table();
   bool operator==(const Mcguire2012Params&) const = default;
 };
-
-/// K in pixels for an image of this height.
-int max_radius_px(const Mcguire2012Params& params, int display_height);
 
 /// Blurs `channels` together, in place (RGBA premultiplied, scene-linear): every plane is as large as `window`. Pixels
 /// whose 3x3 tiles move at most half a pixel keep their bits, and so does a pixel with a channel that is not finite.

@@ -7,7 +7,7 @@ namespace aftershade::pipeline {
 
 namespace {
 
-/// A blur of one paper, which gathers along half-exposure vectors no longer than its radius.
+/// A blur of one paper, which gathers along half-exposure vectors within its radius.
 template <class Params>
 class LiteralBlur final : public BlurStage {
  public:
@@ -15,19 +15,19 @@ class LiteralBlur final : public BlurStage {
   LiteralBlur(const Params& params, Blur method) : BlurStage(params), params_(params), method_(method) {}
 
  private:
-  float radius_px(const BlurScene& scene) const {
-    return static_cast<float>(motionblur::max_radius_px(params_, scene.display.height()));
+  float limit_px(const BlurScene& scene) const {
+    return motionblur::limit_px(params_, scene.window, scene.display.height());
   }
 
   int reach_px(const BlurScene& scene) const override {
     const float half = 0.5F * scene.shutter_frames;
     const float longest = motionblur::longest_displacement_px(scene.motion, {-half, half}, motionblur::Path::straight);
-    return static_cast<int>(std::ceil(std::min(longest, radius_px(scene))));
+    return static_cast<int>(std::ceil(std::min(longest, limit_px(scene))));
   }
 
   void blur(Work&, const BlurScene& scene, std::span<Layer* const> layers) override {
     const motionblur::HalfVelocity velocity =
-        motionblur::half_velocity(scene.motion, scene.shutter_frames, radius_px(scene));
+        motionblur::half_velocity(scene.motion, scene.shutter_frames, limit_px(scene));
     const motionblur::GatherInput input{scene.depth, &velocity, scene.window, scene.display.height()};
     for (Layer* layer : layers) method_(params_, input, channels_of(*layer));
   }

@@ -34,8 +34,8 @@ blur() {
   picture "$out/$method" "$out/$method.png"
 }
 
-blur scalable-motion-blur --set motion_blur.max_radius_px=160
-blur mcguire2012 --set motion_blur.max_radius_px=160
+blur scalable-motion-blur --set motion_blur.max_radius_px=0
+blur mcguire2012 --set motion_blur.max_radius_px=0
 blur guertin2014
 
 echo

@@ -11,28 +11,6 @@ using motionblur::HalfVelocity;
 
 HalfVelocity still_tiles(int columns, int rows) { return {Plane(columns, rows), Plane(columns, rows)}; }
 
-TEST(DirectionalNeighbourMax, TakesCornersThatMoveTowardOrAway) {
-  for (const auto& [vx, vy, counts] :
-       {std::tuple{3.0F, 2.0F, true}, {-3.0F, -0.5F, true}, {3.0F, -2.0F, false}, {4.0F, 0.0F, false}}) {
-    HalfVelocity tiles = still_tiles(3, 3);
-    tiles.x(0, 0) = vx;
-    tiles.y(0, 0) = vy;
-    const HalfVelocity around = motionblur::directional_neighbour_max(tiles);
-    EXPECT_EQ(around.x(1, 1), counts ? vx : 0.0F) << vx << ", " << vy;
-    EXPECT_EQ(around.x(1, 0), vx) << "tiles beside it take every motion";
-    EXPECT_EQ(around.x(2, 2), 0) << "it is no neighbour";
-  }
-}
-
-TEST(DirectionalNeighbourMax, ATileKeepsItsOwnVelocityAgainstEqualOnes) {
-  HalfVelocity tiles = still_tiles(3, 1);
-  tiles.x(0, 0) = 3;
-  tiles.y(1, 0) = 3;
-  const HalfVelocity around = motionblur::directional_neighbour_max(tiles);
-  EXPECT_EQ(around.y(1, 0), 3);
-  EXPECT_EQ(around.x(1, 0), 0);
-}
-
 TEST(DirectionVariance, IsTheMeanDisagreementWithAdjacentTiles) {
   HalfVelocity tiles = still_tiles(4, 3);
   for (int y = 0; y < 3; ++y)

@@ -267,10 +267,21 @@ TYPED_TEST(LiteralBlur, TableReachesEveryMember) {
 TYPED_TEST(LiteralBlur, RadiusScalesWithTheHeightAndIsRoundedUp) {
   TypeParam params;
   params.max_radius_px = 20;
-  EXPECT_EQ(motionblur::max_radius_px(params, 720), 20);
-  EXPECT_EQ(motionblur::max_radius_px(params, 1080), 30);
-  EXPECT_EQ(motionblur::max_radius_px(params, 270), 8);
-  EXPECT_EQ(motionblur::max_radius_px(params, 1), 1);
+  const BlurScene scene = patchy_scene({0, 0, 47, 39}, 9);
+  EXPECT_EQ(motionblur::radius_px(params, scene.velocity, 720), 20);
+  EXPECT_EQ(motionblur::radius_px(params, scene.velocity, 1080), 30);
+  EXPECT_EQ(motionblur::radius_px(params, scene.velocity, 270), 8);
+  EXPECT_EQ(motionblur::radius_px(params, scene.velocity, 1), 1);
+  EXPECT_EQ(motionblur::limit_px(params, scene.window, 270), 8);
+}
+
+TYPED_TEST(LiteralBlur, WithoutARadiusTheLongestMotionIsIt) {
+  const BlurScene scene = patchy_scene({0, 0, 47, 39}, 9);
+  const int longest = static_cast<int>(std::ceil(motionblur::longest_px(scene.velocity)));
+  ASSERT_GT(longest, 3);
+  EXPECT_EQ(motionblur::radius_px(literal<TypeParam>(0), scene.velocity, 720), longest);
+  EXPECT_EQ(motionblur::limit_px(literal<TypeParam>(0), scene.window, 720), 48);
+  EXPECT_TRUE(same_bits(this->blurred(0, scene)[0], this->blurred(static_cast<float>(longest), scene)[0]));
 }
 
 TEST(Mcguire2012, EvenTapsCountAsTheNextOddNumber) {

@@ -179,14 +179,15 @@ class Guertin {
     return g_.exists(other) ? other : own;
   }
 
-  /// Corner tiles only where they move toward or away from this one: within 45 degrees of the line through both.
+  /// Tiles that move toward or away from this one: beside it at all, at a corner within 45 degrees of the line through
+  /// both.
   Vec neighbour_max(Tile tile) const {
     Vec longest = g_.tile_max(tile);
     for (int y = -1; y <= 1; ++y)
       for (int x = -1; x <= 1; ++x) {
         const Vec v = g_.tile_max({tile.x + x, tile.y + y}), offset{double(x), double(y)};
-        const bool corner = x != 0 && y != 0;
-        if (corner && std::abs(dot(v, offset)) <= std::sqrt(0.5) * length(v) * length(offset) * (1 + 1e-12)) continue;
+        const double least = x != 0 && y != 0 ? std::sqrt(0.5) * length(v) * length(offset) * (1 + 1e-12) : 0;
+        if (std::abs(dot(v, offset)) <= least) continue;
         if (length(v) > length(longest)) longest = v;
       }
     return longest;
