@@ -65,14 +65,12 @@ class Timed {
   std::vector<double> times_;
 };
 
-std::vector<Timed> timed_methods(double longest_px, int height) {
+std::vector<Timed> timed_methods() {
   std::vector<Timed> out;
   for (const tests::BlurMethod& method : tests::kBlurMethods) {
     if (!method.preset && !method.method) continue;
     out.emplace_back(method.name, tests::preset_of(method));
-    if (method.has_clamp)
-      out.emplace_back(cat(method.name, ", lifted"),
-                       tests::preset_of(method, tests::lifted_radius(longest_px, height)));
+    if (method.has_clamp) out.emplace_back(cat(method.name, ", lifted"), tests::preset_of(method, tests::kLifted));
   }
   return out;
 }
@@ -103,7 +101,7 @@ int main(int argc, char** argv) {
   };
   load(kFrame);
   const double longest_px = tests::longest_half_exposure_px(frames.at(kFrame));
-  std::vector<Timed> methods = timed_methods(longest_px, options.height);
+  std::vector<Timed> methods = timed_methods();
   for (const Timed& method : methods)
     for (int f = kFrame - method.needs().frames_before; f <= kFrame + method.needs().frames_after; ++f)
       if (!frames.contains(f)) load(f);

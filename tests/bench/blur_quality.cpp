@@ -115,11 +115,13 @@ std::map<int, BlurScore> file_scores(const tests::BlurCase& blur, const std::str
 }
 
 params::Json measure(const tests::BlurCase& blur, const std::set<std::string>& methods) {
-  double uncovered = 0;
-  for (const auto& frame : blur.frames)
-    uncovered += tests::share_of(frame.second.uncovered) / static_cast<double>(blur.frames.size());
-  std::printf("%s: longest half exposure %.1f px, %.2f %% of the pixels uncovered\n", blur.name.c_str(),
-              blur.longest_px, 100 * uncovered);
+  double uncovered = 0, longest_px = 0;
+  for (const auto& [number, frame] : blur.frames) {
+    uncovered += tests::share_of(frame.uncovered) / static_cast<double>(blur.frames.size());
+    longest_px = std::max(longest_px, frame.longest_px);
+  }
+  std::printf("%s: longest half exposure %.1f px, %.2f %% of the pixels uncovered\n", blur.name.c_str(), longest_px,
+              100 * uncovered);
   params::Json rows = params::Json::array();
   for (const tests::BlurMethod& method : tests::kBlurMethods) {
     if (!methods.empty() && !methods.contains(method.name)) continue;

@@ -49,12 +49,16 @@ inline preset::Preset preset_of(const BlurMethod& method, const params::Json& va
   return preset::from_json({{"description", method.name}, {"stages", params::Json::array({stage})}}, method.name);
 }
 
-/// Tile size of a preset of preset_of at an image height: its radius. 0 for a method without tiles.
-inline int tile_px(const preset::Preset& preset, int height) {
+/// The radius that shortens nothing: that of the frame's longest motion.
+inline const params::Json kLifted{{"max_radius_px", 0}};
+
+/// Tile size of a preset of preset_of, which is its radius, at an image height and a longest motion of half the
+/// exposure. 0 for a method without tiles.
+inline int tile_px(const preset::Preset& preset, int height, double longest_px) {
   const params::Json stage = preset::to_json(preset).at("stages").at(0);
   if (!stage.contains("max_radius_px")) return 0;
-  const double radius =
-      stage.at("max_radius_px").get<double>() * height / stage.at("reference_height_px").get<double>();
+  double radius = stage.at("max_radius_px").get<double>() * height / stage.at("reference_height_px").get<double>();
+  if (radius == 0) radius = longest_px;
   return std::max(1, static_cast<int>(std::ceil(radius)));
 }
 
@@ -62,6 +66,7 @@ inline int tile_px(const preset::Preset& preset, int height) {
 struct BlurTruth {
   std::array<Plane, 3> sharp, truth;  ///< red, green and blue
   Plane uncovered;                    ///< see disocclusion.h
+  double longest_px;                  ///< way of a surface during half the exposure
 };
 inline metrics::Rgb rgb_of(const std::array<Plane, 3>& planes) { return {planes[0], planes[1], planes[2]}; }
 
@@ -72,7 +77,6 @@ struct BlurCase {
   std::vector<int> on_disk;
   std::map<int, BlurTruth> frames;
   int height = 0;
-  double longest_px = 0;  ///< of half the exposure, over the measured frames
 };
 
 inline std::array<Plane, 3> first_three(std::vector<Plane>& planes) {
@@ -94,17 +98,13 @@ inline double longest_half_exposure_px(const Frame& frame) {
     }
   return longest;
 }
-/// The radius that shortens nothing, as values of a stage.
-inline params::Json lifted_radius(double longest_px, int height) {
-  return {{"max_radius_px", std::max(1.0, std::ceil(longest_px))}, {"reference_height_px", height}};
-}
-
 /// Adds a frame; the file's own mask of what is uncovered stands in where `uncovered` is empty.
 inline void add_frame(BlurCase& blur, Frame frame, std::array<Plane, 3> truth, Plane uncovered) {
   blur.height = frame.display.height();
-  blur.longest_px = std::max(blur.longest_px, longest_half_exposure_px(frame));
+  const double longest_px = longest_half_exposure_px(frame);
   if (uncovered.empty()) uncovered = disocclusion_of(frame, kShutter_frames, kShutterSamples);
-  blur.frames[frame.number] = {first_three(frame.layers.at(0).planes), std::move(truth), std::move(uncovered)};
+  blur.frames[frame.number] = {first_three(frame.layers.at(0).planes), std::move(truth), std::move(uncovered),
+                               longest_px};
 }
 
 inline const RoleSet kVelocities{Role::velocity_prev, Role::velocity_next};
@@ -225,11 +225,11 @@ inline std::map<int, BlurScore> blur_scores(const BlurCase& blur, const BlurMeth
       scores[number] = blur_score(rgb_of(frame.sharp), rgb_of(frame.truth), frame.uncovered, 0);
     return scores;
   }
-  const preset::Preset preset =
-      preset_of(method, clamped ? params::Json::object() : lifted_radius(blur.longest_px, blur.height));
+  const preset::Preset preset = preset_of(method, clamped ? params::Json::object() : kLifted);
   for (const auto& [number, image] : blurred(blur, preset)) {
     const BlurTruth& frame = blur.frames.at(number);
-    scores[number] = blur_score(rgb_of(image), rgb_of(frame.truth), frame.uncovered, tile_px(preset, blur.height));
+    scores[number] =
+        blur_score(rgb_of(image), rgb_of(frame.truth), frame.uncovered, tile_px(preset, blur.height, frame.longest_px));
   }
   return scores;
 }

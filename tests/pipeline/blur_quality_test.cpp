@@ -52,7 +52,7 @@ std::unique_ptr<BlurCase> YardBlur::yard_;
 TEST_P(YardBlur, ComesCloserToTheTruthThanBlenderOnEveryFrame) {
   const Bound& bound = GetParam();
   double mean_db = 0, uncovered_db = 0, uncovered_before_db = 0;
-  const preset::Preset preset = preset_of(find_method(bound.method), lifted_radius(yard_->longest_px, yard_->height));
+  const preset::Preset preset = preset_of(find_method(bound.method), kLifted);
   for (const auto& [number, image] : blurred(*yard_, preset)) {
     const BlurTruth& frame = yard_->frames.at(number);
     const metrics::Rgb truth = rgb_of(frame.truth);
