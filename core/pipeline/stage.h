@@ -40,6 +40,7 @@ std::unique_ptr<Stage> make_stage(const ao::ApplyAoParams& params);
 std::unique_ptr<Stage> make_stage(const motionblur::ScalableBlurParams& params);
 std::unique_ptr<Stage> make_stage(const motionblur::Mcguire2012Params& params);
 std::unique_ptr<Stage> make_stage(const motionblur::Guertin2014Params& params);
+std::unique_ptr<Stage> make_stage(const motionblur::GatherPlusParams& params);
 
 inline std::unique_ptr<Stage> make_stage(const preset::StageParams& params) {
   return std::visit([](const auto& p) { return make_stage(p); }, params);

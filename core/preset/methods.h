@@ -12,6 +12,7 @@
 #include "core/filter/bilateral_blur.h"
 #include "core/filter/bilateral_upsample.h"
 #include "core/filter/cross_bilateral_blur.h"
+#include "core/motionblur/gather_plus.h"
 #include "core/motionblur/guertin2014.h"
 #include "core/motionblur/mcguire2012.h"
 #include "core/motionblur/scalable_blur.h"
@@ -31,7 +32,8 @@ using StageParams =
                  ao::GrowingCircleParams, AccumulativeSsaoParams, TemporalRefinementParams, filter::BilateralBlurParams,
                  filter::BilateralUpsampleParams, filter::CrossBilateralBlurParams, temporal::SelectiveTemporalParams,
                  temporal::TemporalBlurParams, temporal::TemporalWindowParams, ao::ApplyAoParams,
-                 motionblur::ScalableBlurParams, motionblur::Mcguire2012Params, motionblur::Guertin2014Params>;
+                 motionblur::ScalableBlurParams, motionblur::Mcguire2012Params, motionblur::Guertin2014Params,
+                 motionblur::GatherPlusParams>;
 
 /// Calls `visit(std::type_identity<Params>{})` for every method in the list's order.
 template <class Visit>
