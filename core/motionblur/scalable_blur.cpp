@@ -24,9 +24,10 @@ const params::Table& ScalableBlurParams::table() {
                "Image height that max_radius_px is meant for: at another height it scales and is rounded up.")
           .add("jitter", &P::jitter, {"checkerboard", "random4x4"},
                "How taps shift from pixel to pixel to hide banding: two phases, or sixteen.")
-          .add("directions", &P::directions, {"neighbourhood", "alternate", "three"},
-               "Take all taps along the fastest motion nearby, or every second one along the pixel's own motion, or "
-               "every third one along that and along the fastest of the pixel's tile.")
+          .add("directions", &P::directions, {"neighbourhood", "alternate", "alternate-literal", "three"},
+               "Take all taps along the fastest motion nearby, or every second one along the pixel's own motion "
+               "(literally: no farther than it moves), or every third one along that and along the fastest of the "
+               "pixel's tile.")
           .add("dilation", &P::dilation, {"3x3", "directional", "line"},
                "Whose motion counts as nearby: that of all tiles around, of those whose fastest points along the way "
                "to the pixel's tile, or of the pixels whose blur crosses that tile.")

@@ -11,9 +11,10 @@ namespace aftershade::motionblur {
 
 enum class Jitter { checkerboard, random4x4 };
 enum class Directions {
-  neighbourhood,  ///< v_N alone
-  alternate,      ///< v_N and v_C in turn
-  three,          ///< v_N, v_C and the tile's own maximum in turn (slide "Scale for Quality"), outwards from the centre
+  neighbourhood,      ///< v_N alone
+  alternate,          ///< v_N and v_C in turn
+  alternate_literal,  ///< the same with v_C as it is, which kills the blur beyond a moving edge (algorithms 2.4)
+  three,  ///< v_N, v_C and the tile's own maximum in turn (slide "Scale for Quality"), outwards from the centre
 };
 enum class DepthComparison {
   soft_extent,  ///< differences over soft_depth_extent_m, as in the slides
@@ -31,8 +32,8 @@ enum class VelocityBits {
 ///   weight = b (1 - d/|v_C|) + f (1 - d/|v_S|) + [|v_S| >= d and |v_C| >= d]     slides "Background / Foreground /
 ///   Mutually Blurry"
 /// each term with its tunable weight; the sum of colours is divided by the sum of weights. Alternation keeps the length
-/// of v_N and takes v_C only as a direction, and only if |v_C| >= 1.5 px (algorithms 2.4: taken literally it is
-/// degenerate). Taps outside the image are dropped with their weight. RGBA together, premultiplied, scene-linear.
+/// of v_N and takes v_C only as a direction, and only if |v_C| >= 1.5 px (algorithms 2.4). Taps outside the image are
+/// dropped with their weight. RGBA together, premultiplied, scene-linear.
 struct ScalableBlurParams : MotionParams {
   static constexpr std::string_view method = "scalable-motion-blur";
   static constexpr std::string_view summary = "Vicarious Visions' scalable motion blur (SIGGRAPH 2012)";
@@ -40,7 +41,7 @@ struct ScalableBlurParams : MotionParams {
   float max_radius_px = 18;  ///< K at the reference height, rounded up; 0: the longest motion of the frame
   float reference_height_px = 1080;
   Jitter jitter = Jitter::random4x4;
-  int passes = 1;  ///< each with other jitter; their mean counts
+  int passes = 1;  ///< over the same picture, each with other jitter; their mean counts
   Directions directions = Directions::alternate;
   Dilation dilation = Dilation::square;
   DepthComparison comparison = DepthComparison::soft_extent;

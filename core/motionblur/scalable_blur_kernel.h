@@ -70,22 +70,33 @@ inline Vector directed(VelocityRow row, int x, Vector neighbourhood, Float searc
   return {select(known, v.x * scale, neighbourhood.x), select(known, v.y * scale, neighbourhood.y)};
 }
 
+/// From one end of a search to its middle.
+struct Direction {
+  Vector v;
+  Float length;
+};
+
 /// What the taps are taken along, and in which order.
 struct Search {
-  Vector neighbourhood, centre, tile;
-  Float length;
+  Direction neighbourhood, centre, tile;
   Directions directions;
-  const Vector& of_tap(int i, int middle) const {
+  const Direction& of_tap(int i, int middle) const {
     const int steps = i < middle ? middle - i : i - middle;
     if (directions == Directions::three) return steps % 3 == 1 ? neighbourhood : steps % 3 == 2 ? centre : tile;
-    return directions == Directions::alternate && (i & 1) != 0 ? centre : neighbourhood;
+    return directions != Directions::neighbourhood && (i & 1) != 0 ? centre : neighbourhood;
   }
 };
 inline Search search_of(Directions directions, const ScalableBlurRow& row, int x) {
-  const Vector n{load(row.neighbourhood.x + x), load(row.neighbourhood.y + x)};
-  Search search{n, n, n, length(n), directions};
-  if (directions != Directions::neighbourhood) search.centre = directed(row.own, x, n, search.length);
-  if (directions == Directions::three) search.tile = directed(row.tile, x, n, search.length);
+  const Vector v{load(row.neighbourhood.x + x), load(row.neighbourhood.y + x)};
+  const Direction n{v, length(v)};
+  Search search{n, n, n, directions};
+  if (directions == Directions::alternate_literal) {
+    const Vector own{load(row.own.x + x), load(row.own.y + x)};
+    search.centre = {own, length(own)};
+  } else if (directions != Directions::neighbourhood) {
+    search.centre.v = directed(row.own, x, v, n.length);
+  }
+  if (directions == Directions::three) search.tile.v = directed(row.tile, x, v, n.length);
   return search;
 }
 
@@ -101,9 +112,9 @@ inline Gathered one_pass(const ScalableBlurKernel& k, const GatherPlanes& p, con
     if (i == middle) continue;
     // algorithms 2.2: mix(-1, 1, (i + j + 1) / (S + 1))
     const Float t = (Float(static_cast<float>(i - middle)) + jitter) * spacing;
-    const Vector& v = search.of_tap(i, middle);
-    const Tap tap = tap_at(p, iota(x), Int(y), {v.x * t, v.y * t});
-    add(p, tap, tap_weight(k, speed, depth, tap, search.length * abs(t)), sum);
+    const Direction& along = search.of_tap(i, middle);
+    const Tap tap = tap_at(p, iota(x), Int(y), {along.v.x * t, along.v.y * t});
+    add(p, tap, tap_weight(k, speed, depth, tap, along.length * abs(t)), sum);
   }
   return sum;
 }
@@ -118,7 +129,7 @@ inline void scalable_blur_row(const ScalableBlurKernel& k, const GatherPlanes& p
   for (int x = 0; x < p.width; x += kLanes) {
     const Search search = search_of(k.directions, row, x);
     // slide "Current Gen Implementation": branch on velocity
-    const Mask moving = (search.length > kLeastRadius_px) & (load(p.speed + y * p.stride + x) > 0.0F);
+    const Mask moving = (search.neighbourhood.length > kLeastRadius_px) & (load(p.speed + y * p.stride + x) > 0.0F);
     if (!any(moving)) continue;
     Gathered sum = one_pass(k, p, search, x, y, 0);
     if (k.passes > 1) {

@@ -60,6 +60,7 @@ class Reference {
       return length(v) < 1.5 ? v_n : Vec{v.x / length(v) * length(v_n), v.y / length(v) * length(v_n)};
     };
     if (p_.directions == motionblur::Directions::alternate) return i % 2 == 1 ? with_length_of_v_n(v_c) : v_n;
+    if (p_.directions == motionblur::Directions::alternate_literal) return i % 2 == 1 ? v_c : v_n;
     if (p_.directions == motionblur::Directions::neighbourhood) return v_n;
     const int outwards = std::abs(i - (p_.taps - 1) / 2);
     if (outwards % 3 == 1) return v_n;

@@ -50,7 +50,8 @@ void expect_like_reference(const ScalableBlurParams& params, int radius, const B
 TEST(ScalableBlur, AgreesWithTheSlides) {
   const BlurScene scene = patchy_scene({-5, 3, 57, 44}, 9);
   for (const Jitter jitter : {Jitter::checkerboard, Jitter::random4x4})
-    for (const Directions directions : {Directions::neighbourhood, Directions::alternate})
+    for (const Directions directions :
+         {Directions::neighbourhood, Directions::alternate, Directions::alternate_literal})
       for (const int taps : {3, 7, 9, 27}) {
         ScalableBlurParams params = unscaled(9);
         params.jitter = jitter;
@@ -114,6 +115,24 @@ TEST(ScalableBlur, WithoutALimitItIsThatOfTheLongestVelocity) {
   EXPECT_EQ(motionblur::radius_px(unscaled(0), stray.velocity, 1), 58) << "no farther than the picture is wide";
   const BlurScene still = make_blur_scene({0, 0, 7, 7}, [](int, int) { return BlurPixel{1, 0, 0, {1}}; });
   EXPECT_EQ(motionblur::radius_px(unscaled(0), still.velocity, 1), 1);
+}
+
+TEST(ScalableBlur, TakenLiterallyAlternationKillsTheOuterBlur) {
+  const BlurScene scene = make_blur_scene({0, 0, 95, 15}, [](int x, int) {
+    const bool object = x < 48;
+    return BlurPixel{object ? 1.0F : 5.0F, object ? 20.0F : 0.0F, 0, {object ? 1.0F : 0.0F}};
+  });
+  const auto coverage = [&](Directions directions) {
+    ScalableBlurParams params = unscaled(20);
+    params.directions = directions;
+    const std::vector<Plane> out = blurred(params, scene);
+    double sum = 0;
+    for (int y = 4; y < 8; ++y)
+      for (int x = 48; x < 52; ++x) sum += out[0](x, y) / 16;
+    return sum;
+  };
+  EXPECT_GT(coverage(Directions::alternate), 0.4);
+  EXPECT_LT(coverage(Directions::alternate_literal), 0.06);
 }
 
 /// A still pixel between an object that moves across to it and a faster one that moves along the border.
