@@ -35,8 +35,8 @@ blur() {
 }
 
 blur scalable-motion-blur --set motion_blur.max_radius_px=0
-blur mcguire2012 --set motion_blur.max_radius_px=0
-blur guertin2014
+blur guertin2014 --set motion_blur.max_radius_px=0
+blur gather-plus
 
 echo
 echo "input frames        $out/in"
