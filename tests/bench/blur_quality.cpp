@@ -1,6 +1,7 @@
 // Every motion blur against accumulated truth (shutter 0.5, centred): the public sequence and synthetic scenes. Prints
 // a table, with --json also every frame's figures. See README.md.
 //   bench_blur_quality [--json FILE] [--frames 3,6,9] [--methods A,B] [--scenes yard,crossing] [--files PATTERN]
+//     [--seam-runs N]
 #include "tests/pipeline/blur_quality.h"
 
 #include <cstdio>
@@ -15,10 +16,14 @@ namespace {
 using namespace aftershade;
 using tests::BlurScore;
 
+/// One frame of a scene does not average its content as twelve do.
+constexpr int kSceneSeamRuns = 8;
+
 struct Options {
   std::vector<int> frames = tests::frames_from_to(1, tests::kYardFrames);  ///< of the public sequence
   std::set<std::string> methods;                                           ///< empty: all
   std::vector<std::string> scenes{"yard", "crossing", "columns", "trail"};
+  int seam_runs = 1;             ///< on the public sequence
   std::string json_file, files;  ///< of another program that blurred the public sequence: out/yard_vb.####.exr
 };
 
@@ -42,6 +47,8 @@ bool parse(int argc, char** argv, Options& options) {
       for (const std::string& frame : items(value)) options.frames.push_back(std::atoi(frame.c_str()));
     } else if (key == "--methods") {
       for (const std::string& method : items(value)) options.methods.insert(method);
+    } else if (key == "--seam-runs") {
+      options.seam_runs = std::max(1, std::atoi(value.c_str()));
     } else if (key == "--files") {
       options.files = value;
     } else if (key == "--scenes") {
@@ -139,7 +146,8 @@ int main(int argc, char** argv) {
   if (!parse(argc, argv, options)) {
     std::fprintf(
         stderr,
-        "usage: bench_blur_quality [--json FILE] [--frames N,N] [--methods A,B] [--scenes A,B] [--files PATTERN]\n");
+        "usage: bench_blur_quality [--json FILE] [--frames N,N] [--methods A,B] [--scenes A,B] [--files PATTERN] "
+        "[--seam-runs N]\n");
     return 64;
   }
   std::printf("%-9s %-24s %7s %7s %7s %8s %7s %7s %7s   %7s %7s\n", "input", "method", "PSNR", "SSIM", "FLIP", "light",
@@ -150,8 +158,8 @@ int main(int argc, char** argv) {
       std::printf("NOT MEASURED: the public sequence is not there (set AFTERSHADE_DATA)\n");
       continue;
     }
-    const tests::BlurCase blur =
-        scene == "yard" ? tests::yard_blur_case(options.frames) : tests::scene_blur_case(scene);
+    tests::BlurCase blur = scene == "yard" ? tests::yard_blur_case(options.frames) : tests::scene_blur_case(scene);
+    blur.seam_runs = scene == "yard" ? options.seam_runs : kSceneSeamRuns;
     for (params::Json& row : measure(blur, options.methods)) rows.push_back(std::move(row));
     if (scene == "yard" && !options.files.empty())
       rows.push_back(print(scene, std::filesystem::path(options.files).filename(), file_scores(blur, options.files)));

@@ -25,7 +25,8 @@ struct BlurMethod {
   const char* name;
   const char* preset = nullptr;
   const char* method = nullptr;
-  bool has_clamp = false;  ///< max_radius_px shortens velocities; it is also measured lifted
+  bool has_clamp = false;  ///< max_radius_px, which is also its tile, shortens velocities; it is also measured lifted
+  int tile_px = 0;         ///< of a method whose tiles have one size
 };
 /// THE list of the benchmarks: a line adds a method. The first is no blur at all.
 inline constexpr BlurMethod kBlurMethods[] = {
@@ -34,6 +35,7 @@ inline constexpr BlurMethod kBlurMethods[] = {
     {.name = "vv-dx11", .preset = "vicarious-visions-dx11", .has_clamp = true},
     {.name = "mcguire2012", .preset = "mcguire2012", .has_clamp = true},
     {.name = "guertin2014", .preset = "guertin2014", .has_clamp = true},
+    {.name = "gather-plus", .method = "gather-plus", .tile_px = 16},
 };
 
 /// One stage, "motion_blur".
@@ -52,11 +54,11 @@ inline preset::Preset preset_of(const BlurMethod& method, const params::Json& va
 /// The radius that shortens nothing: that of the frame's longest motion.
 inline const params::Json kLifted{{"max_radius_px", 0}};
 
-/// Tile size of a preset of preset_of, which is its radius, at an image height and a longest motion of half the
-/// exposure. 0 for a method without tiles.
-inline int tile_px(const preset::Preset& preset, int height, double longest_px) {
+/// Tile size of a preset of preset_of(method, ...) at an image height and a longest motion of half the exposure. 0 for
+/// a method without tiles.
+inline int tile_px(const BlurMethod& method, const preset::Preset& preset, int height, double longest_px) {
+  if (!method.has_clamp) return method.tile_px;
   const params::Json stage = preset::to_json(preset).at("stages").at(0);
-  if (!stage.contains("max_radius_px")) return 0;
   double radius = stage.at("max_radius_px").get<double>() * height / stage.at("reference_height_px").get<double>();
   if (radius == 0) radius = longest_px;
   return std::max(1, static_cast<int>(std::ceil(radius)));
@@ -77,6 +79,7 @@ struct BlurCase {
   std::vector<int> on_disk;
   std::map<int, BlurTruth> frames;
   int height = 0;
+  int seam_runs = 1;  ///< with the tiles laid elsewhere in each: seams that are content's average out
 };
 
 inline std::array<Plane, 3> first_three(std::vector<Plane>& planes) {
@@ -137,15 +140,35 @@ inline BlurCase scene_blur_case(const std::string& name) {
   return blur;
 }
 
+/// A sequence whose absolute coordinates are larger by `shift` pixels, so that tiles lie elsewhere in its pictures.
+class ShiftedSource final : public FrameSource {
+ public:
+  ShiftedSource(FrameSource& source, int shift) : source_(source), shift_(shift) {}
+  std::optional<Frame> load(int number, const std::string& view, RoleSet roles, bool with_layers) override {
+    std::optional<Frame> frame = source_.load(number, view, roles, with_layers);
+    if (!frame) return frame;
+    frame->window = shifted(frame->window), frame->display = shifted(frame->display);
+    if (frame->camera) frame->camera->cx += shift_, frame->camera->cy += shift_;
+    for (Layer& layer : frame->layers) layer.data_window = shifted(layer.data_window);
+    return frame;
+  }
+
+ private:
+  Window shifted(Window w) const { return {w.min_x + shift_, w.min_y + shift_, w.max_x + shift_, w.max_y + shift_}; }
+  FrameSource& source_;
+  int shift_;
+};
+
 /// The measured frames blurred by a preset, from the whole sequence.
-inline std::map<int, std::array<Plane, 3>> blurred(const BlurCase& blur, const preset::Preset& preset) {
+inline std::map<int, std::array<Plane, 3>> blurred(const BlurCase& blur, const preset::Preset& preset, int shift = 0) {
   std::vector<pipeline::ViewPipeline> views;
   views.emplace_back(preset, "", kFullOffer, pipeline::Outputs{});
+  ShiftedSource source(*blur.source, shift);
   MemorySink sink;
   pipeline::RunOptions options;
   options.on_disk = blur.on_disk;
   for (const auto& frame : blur.frames) options.written.push_back(frame.first);
-  pipeline::run(views, *blur.source, sink, options);
+  pipeline::run(views, source, sink, options);
   std::map<int, std::array<Plane, 3>> out;
   for (auto& [number, planes] : sink.planes)
     for (size_t c = 0; c < 3; ++c) out[number][c] = std::move(planes.at(blur.channels + "RGB"[c]));
@@ -183,28 +206,27 @@ inline double sum_of(const metrics::Rgb& rgb) {
   return sum;
 }
 
-/// Seams where the tiles are and elsewhere, means over the channels.
-inline void add_seams(BlurScore& score, const std::array<Plane, 3>& shown, const std::array<Plane, 3>& truth,
-                      int tile) {
-  constexpr int kElsewhere = 16;  // shifts along the diagonal at most
-  const auto seams = [&](int shift) {
-    double sum = 0;
-    for (size_t c = 0; c < 3; ++c) sum += metrics::tile_seam_ratio(shown[c], truth[c], tile, shift, shift) / 3;
-    return sum;
-  };
-  score.seams = score.seams_elsewhere = std::nan("");
-  if (tile <= 0) return;
-  score.seams = seams(0);
-  const int step = (tile - 2) / kElsewhere + 1;
-  for (int shift = step; shift < tile; shift += step)
-    score.seams_elsewhere = std::fmax(score.seams_elsewhere, seams(shift));
+inline std::array<Plane, 3> all_displayed(const metrics::Rgb& rgb) {
+  return {displayed(rgb[0]), displayed(rgb[1]), displayed(rgb[2])};
+}
+
+/// Mean over the channels; tiles start at `first` along both axes.
+inline double seam_ratio(const std::array<Plane, 3>& shown, const std::array<Plane, 3>& truth, int tile, int first) {
+  double sum = 0;
+  for (size_t c = 0; c < 3; ++c) sum += metrics::tile_seam_ratio(shown[c], truth[c], tile, first, first) / 3;
+  return sum;
+}
+/// The greatest for up to 16 other places of the tiles, along the diagonal.
+inline double seam_ratio_elsewhere(const std::array<Plane, 3>& shown, const std::array<Plane, 3>& truth, int tile) {
+  double greatest = std::nan("");
+  const int step = (tile - 2) / 16 + 1;
+  for (int first = step; first < tile; first += step)
+    greatest = std::fmax(greatest, seam_ratio(shown, truth, tile, first));
+  return greatest;
 }
 
 /// `tile` 0: the method has none.
 inline BlurScore blur_score(const metrics::Rgb& image, const metrics::Rgb& truth, ConstPlaneView uncovered, int tile) {
-  const auto all_displayed = [](const metrics::Rgb& rgb) {
-    return std::array<Plane, 3>{displayed(rgb[0]), displayed(rgb[1]), displayed(rgb[2])};
-  };
   const std::array<Plane, 3> shown = all_displayed(image), true_shown = all_displayed(truth);
   const Plane flip = metrics::hdr_flip(image, truth);
   BlurScore score;
@@ -213,8 +235,28 @@ inline BlurScore blur_score(const metrics::Rgb& image, const metrics::Rgb& truth
   score.hdr_flip = metrics::distribution(std::array<ConstPlaneView, 1>{flip}).mean;
   score.radiance = sum_of(image) / sum_of(truth);
   score.psnr_uncovered = metrics::display_psnr(image, truth, uncovered);
-  add_seams(score, shown, true_shown, tile);
+  score.seams = tile > 0 ? seam_ratio(shown, true_shown, tile, 0) : std::nan("");
+  score.seams_elsewhere = tile > 0 ? seam_ratio_elsewhere(shown, true_shown, tile) : std::nan("");
   return score;
+}
+
+/// Makes each frame's seam ratio the mean of blur.seam_runs runs with tiles at evenly spaced places.
+inline void average_seams(const BlurCase& blur, const BlurMethod& method, const preset::Preset& preset,
+                          std::map<int, BlurScore>& scores) {
+  int largest = 0;
+  for (const auto& [number, frame] : blur.frames)
+    largest = std::max(largest, tile_px(method, preset, blur.height, frame.longest_px));
+  if (largest == 0) return;
+  std::map<int, double> sums;
+  for (int run = 1; run < blur.seam_runs; ++run) {
+    const int shift = largest * run / blur.seam_runs;
+    for (const auto& [number, image] : blurred(blur, preset, shift)) {
+      const BlurTruth& frame = blur.frames.at(number);
+      const int tile = tile_px(method, preset, blur.height, frame.longest_px);
+      sums[number] += seam_ratio(all_displayed(rgb_of(image)), all_displayed(rgb_of(frame.truth)), tile, -shift);
+    }
+  }
+  for (auto& [number, score] : scores) score.seams = (score.seams + sums[number]) / blur.seam_runs;
 }
 
 /// Of every measured frame. `clamped` false lifts the radius of a method that has one.
@@ -228,9 +270,10 @@ inline std::map<int, BlurScore> blur_scores(const BlurCase& blur, const BlurMeth
   const preset::Preset preset = preset_of(method, clamped ? params::Json::object() : kLifted);
   for (const auto& [number, image] : blurred(blur, preset)) {
     const BlurTruth& frame = blur.frames.at(number);
-    scores[number] =
-        blur_score(rgb_of(image), rgb_of(frame.truth), frame.uncovered, tile_px(preset, blur.height, frame.longest_px));
+    scores[number] = blur_score(rgb_of(image), rgb_of(frame.truth), frame.uncovered,
+                                tile_px(method, preset, blur.height, frame.longest_px));
   }
+  average_seams(blur, method, preset, scores);
   return scores;
 }
 
