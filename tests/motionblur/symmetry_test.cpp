@@ -30,7 +30,7 @@ const View kViews[] = {
 
 /// The first blurred channel of the view, averaged over all sixteen jitters of a pixel: the window is placed at
 /// different multiples of the tile, which is 1 modulo the jitter's period.
-std::vector<double> mean_over_jitter(const View& view) {
+std::vector<double> mean_over_jitter(const motionblur::ScalableBlurParams& params, const View& view) {
   std::vector<double> mean(kSize * kSize);
   for (int phase = 0; phase < 16; ++phase) {
     const int left = kTile * (phase % 4), top = kTile * (phase / 4);
@@ -40,7 +40,7 @@ std::vector<double> mean_over_jitter(const View& view) {
       std::tie(pixel.vx, pixel.vy) = view.velocity(pixel.vx, pixel.vy);
       return pixel;
     });
-    const std::vector<Plane> out = blurred(unscaled(kTile), scene);
+    const std::vector<Plane> out = blurred(params, scene);
     for (int y = 0; y < kSize; ++y)
       for (int x = 0; x < kSize; ++x) {
         const auto [sx, sy] = view.pixel(x, y);
@@ -50,13 +50,25 @@ std::vector<double> mean_over_jitter(const View& view) {
   return mean;
 }
 
-TEST(ScalableBlurSymmetry, NoDirectionIsPreferred) {
-  const std::vector<double> plain = mean_over_jitter(kPlain);
+void expect_no_preferred_direction(const motionblur::ScalableBlurParams& params, const char* what) {
+  const std::vector<double> plain = mean_over_jitter(params, kPlain);
   for (const View& view : kViews) {
-    const std::vector<double> seen = mean_over_jitter(view);
+    const std::vector<double> seen = mean_over_jitter(params, view);
     for (size_t i = 0; i < plain.size(); ++i)
-      ASSERT_NEAR(seen[i], plain[i], 1e-5) << view.name << " at " << i % kSize << ", " << i / kSize;
+      ASSERT_NEAR(seen[i], plain[i], 1e-5) << what << ", " << view.name << " at " << i % kSize << ", " << i / kSize;
   }
+}
+
+TEST(ScalableBlurSymmetry, NoDirectionIsPreferred) { expect_no_preferred_direction(unscaled(kTile), "default"); }
+
+TEST(ScalableBlurSymmetry, NeitherByAnyDilationNorByThreeDirections) {
+  motionblur::ScalableBlurParams params = unscaled(kTile);
+  params.directions = motionblur::Directions::three;
+  expect_no_preferred_direction(params, "three directions");
+  params.dilation = motionblur::Dilation::directional;
+  expect_no_preferred_direction(params, "directional");
+  params.dilation = motionblur::Dilation::line;
+  expect_no_preferred_direction(params, "line");
 }
 
 }  // namespace
