@@ -38,12 +38,12 @@ MotionKernel kernel_of(const MotionParams& params, const MotionSources& sources)
 
 }  // namespace
 
-Motion motion_of(const MotionParams& params, const MotionSources& sources, bool* from_camera) {
+Motion motion_of(const MotionParams& params, const MotionSources& sources, WithoutVector* without) {
   const int width = sources.window.width(), height = sources.window.height();
   Motion out{Plane(width, height), Plane(width, height), Plane(width, height), Plane(width, height)};
   const MotionKernel kernel = kernel_of(params, sources);
   const double centre_y = 0.5 * (sources.display.min_y + sources.display.max_y + 1) - sources.window.min_y;
-  std::atomic<bool> any_from_camera = false;
+  std::atomic<bool> by_camera = false, still = false;
   for_rows(height, [&](int y) {
     const auto before = camera_row(sources, sources.before, y), after = camera_row(sources, sources.after, y);
     const MotionRow row{{row_of(sources.prev_x, y), row_of(sources.prev_y, y)},
@@ -60,9 +60,11 @@ Motion motion_of(const MotionParams& params, const MotionSources& sources, bool*
                         out.prev_y.row(y),
                         out.next_x.row(y),
                         out.next_y.row(y)};
-    if (motion_row(kernel, row)) any_from_camera = true;
+    const WithoutVector of_row = motion_row(kernel, row);
+    if (of_row.by_camera) by_camera = true;
+    if (of_row.still) still = true;
   });
-  if (from_camera != nullptr) *from_camera = any_from_camera;
+  if (without != nullptr) *without = {by_camera, still};
   return out;
 }
 

@@ -58,13 +58,17 @@ struct MotionSources {
   Window window, display;
 };
 
+/// What became of pixels without a vector: is there one that follows the camera, one that stands still?
+struct WithoutVector {
+  bool by_camera = false, still = false;
+};
+
 /// The motion of every pixel's surface: where one vector is known, the other is its negative; where none is, the
 /// camera's (depth and a camera beside the frame's own; the background follows its rotation), else it stands still. A
 /// vector of 0 in the background counts as none where the camera is known: renderers write it for want of another.
 /// Then, in this order: the shares of camera and object (of a pixel whose camera motion is unknown, all is the
-/// object's), the added motion, the limits, by the longer of both vectors. `from_camera`, if not null, tells whether
-/// any vector is the camera's because the pixel has none.
-Motion motion_of(const MotionParams& params, const MotionSources& sources, bool* from_camera = nullptr);
+/// object's), the added motion, the limits, by the longer of both vectors.
+Motion motion_of(const MotionParams& params, const MotionSources& sources, WithoutVector* without = nullptr);
 
 /// Parameters of those that follow a surface along its path.
 struct PathParams : MotionParams {
@@ -76,8 +80,7 @@ struct PathParams : MotionParams {
 
 Shutter shutter_of(const PathParams& params, float shutter_frames);
 
-/// An upper bound, in pixels, of how far any surface gets from its place while the shutter is open (none closer than
-/// the true length with Path::straight and Path::separate).
+/// How far, in pixels, any surface gets from its place while the shutter is open; with Path::curved an upper bound.
 float longest_displacement_px(const Motion& motion, Shutter shutter, Path path);
 
 /// One coordinate of the displacement at time t for a surface with displacements `prev` and `next`:

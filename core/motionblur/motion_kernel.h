@@ -1,5 +1,6 @@
 #pragma once
 #include "core/filter/static_motion.h"
+#include "core/motionblur/motion.h"
 #include "core/simd/lanes.h"
 
 /// The motion of one row of pixels.
@@ -101,25 +102,26 @@ inline Float limit_factor(const MotionKernel& k, const BothWays& d) {
 
 }  // namespace detail
 
-/// Returns whether a pixel without a vector took the camera's.
-inline bool motion_row(const MotionKernel& k, const MotionRow& row) {
+inline WithoutVector motion_row(const MotionKernel& k, const MotionRow& row) {
   using namespace lanes;
   using namespace detail;
-  bool from_camera = false;
+  WithoutVector without;
   for (int i = 0; i < row.width; i += kLanes) {
     BothWays d{load_displacement(row.prev, i), load_displacement(row.next, i)};
+    BothWays camera = d;
     if (row.before != nullptr || row.after != nullptr) {
       const Float x = to_float(iota(row.min_x + i)) + 0.5F, z = load(row.depth + i);
-      const BothWays camera = completed({camera_displacement(row.before, x, z), camera_displacement(row.after, x, z)});
       d = completed({unless_background(d.prev, z), unless_background(d.next, z)});
-      from_camera = from_camera || any(camera.prev.known & !d.prev.known & (iota(i) < Int(row.width)));
-      d = {first_known(d.prev, camera.prev), first_known(d.next, camera.next)};
-      if (k.split) d = {shared_out(k, d.prev, camera.prev), shared_out(k, d.next, camera.next)};
+      camera = completed({camera_displacement(row.before, x, z), camera_displacement(row.after, x, z)});
     } else {
       d = completed(d);
-      const Displacement none = load_displacement({nullptr, nullptr}, 0);
-      if (k.split) d = {shared_out(k, d.prev, none), shared_out(k, d.next, none)};
+      camera.prev = camera.next = load_displacement({nullptr, nullptr}, 0);
     }
+    const Mask lone = (!d.prev.known) & (iota(i) < Int(row.width));
+    without.by_camera = without.by_camera || any(lone & camera.prev.known);
+    without.still = without.still || any(lone & (!camera.prev.known));
+    d = {first_known(d.prev, camera.prev), first_known(d.next, camera.next)};
+    if (k.split) d = {shared_out(k, d.prev, camera.prev), shared_out(k, d.next, camera.next)};
     const Displacement added = added_motion(k, row, i);
     d = {{d.prev.x - added.x, d.prev.y - added.y, d.prev.known},
          {d.next.x + added.x, d.next.y + added.y, d.next.known}};
@@ -129,7 +131,7 @@ inline bool motion_row(const MotionKernel& k, const MotionRow& row) {
     store(row.next_x + i, d.next.x * factor);
     store(row.next_y + i, d.next.y * factor);
   }
-  return from_camera;
+  return without;
 }
 
 }  // namespace aftershade::motionblur

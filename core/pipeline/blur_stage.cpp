@@ -88,9 +88,9 @@ void BlurStage::observe(const Work& work) { cameras_[work.frame.number] = work.f
 void BlurStage::run(Work& work) {
   Frame& frame = work.frame;
   const float shutter = shutter_frames(work);
-  bool from_camera = false;
-  BlurScene scene = scene_of(frame, shutter, motion_of(frame, &from_camera));
-  report_motion(work, from_camera);
+  motionblur::WithoutVector without;
+  BlurScene scene = scene_of(frame, shutter, motion_of(frame, &without));
+  report_motion(work, without);
   const int reach = reach_px(scene);
   const Window widest = united(frame.display, frame.window);  // blur may fill the picture, not leave it
   const Window window = intersection(expanded(frame.window, reach), widest);
@@ -112,7 +112,7 @@ void BlurStage::run(Work& work) {
   while (!cameras_.empty() && cameras_.begin()->first < frame.number - kCamerasBehind) cameras_.erase(cameras_.begin());
 }
 
-motionblur::Motion BlurStage::motion_of(const Frame& frame, bool* from_camera) const {
+motionblur::Motion BlurStage::motion_of(const Frame& frame, motionblur::WithoutVector* without) const {
   motionblur::MotionSources sources;
   sources.prev_x = plane_of(frame, Role::velocity_prev, 0);
   sources.prev_y = plane_of(frame, Role::velocity_prev, 1);
@@ -131,7 +131,7 @@ motionblur::Motion BlurStage::motion_of(const Frame& frame, bool* from_camera) c
   sources.added_mask = named_plane(frame, motion_.added_mask);
   sources.window = frame.window;
   sources.display = frame.display;
-  return motionblur::motion_of(motion_, sources, from_camera);
+  return motionblur::motion_of(motion_, sources, without);
 }
 
 std::optional<Camera> BlurStage::camera_of(int frame) const {
@@ -143,14 +143,16 @@ BlurScene BlurStage::scene_of(const Frame& frame, float shutter_frames, motionbl
   return {std::move(motion), shutter_frames, plane_of(frame, Role::depth), frame.window, frame.display};
 }
 
-void BlurStage::report_motion(Work& work, bool from_camera) const {
+void BlurStage::report_motion(Work& work, motionblur::WithoutVector without) const {
   const bool vectors = has_vectors(work.frame);
   if ((!vectors || motion_.splits_motion()) && !camera_of(work.frame.number - 1) && !camera_of(work.frame.number + 1))
     work.warn("no frame beside this one: the camera's motion is not known, and counts as none");
   else if (!vectors)
     work.note("the file has no velocity: motion is the camera's alone");
-  else if (from_camera)
+  else if (without.by_camera)
     work.note("pixels without a vector move as the camera does");
+  else if (without.still && motion_.unknown_vectors == motionblur::UnknownVectors::camera)
+    work.note("pixels without a vector stay sharp: the camera's motion there is not known");
 }
 
 float BlurStage::shutter_frames(Work& work) const {

@@ -44,13 +44,13 @@ class BlurStage : public Stage {
 
   /// The motion of a frame that was observed, or of any frame with vectors: reads its roles, its named channels and the
   /// cameras observed beside it.
-  motionblur::Motion motion_of(const Frame& frame, bool* from_camera = nullptr) const;
+  motionblur::Motion motion_of(const Frame& frame, motionblur::WithoutVector* without = nullptr) const;
 
  private:
   float shutter_frames(Work& work) const;
   std::optional<Camera> camera_of(int frame) const;
   BlurScene scene_of(const Frame& frame, float shutter_frames, motionblur::Motion motion) const;
-  void report_motion(Work& work, bool from_camera) const;
+  void report_motion(Work& work, motionblur::WithoutVector without) const;
 
   motionblur::MotionParams motion_;
   std::map<int, std::optional<Camera>> cameras_;  ///< of the frames observed lately, by number

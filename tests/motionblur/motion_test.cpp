@@ -131,9 +131,9 @@ TEST(Motion, OfOneKnownVectorIsEven) {
   const Picture picture(kDisplay);
   MotionSources sources = picture.sources();
   sources.prev_x = sources.prev_y = {};
-  bool from_camera = true;
-  const Motion motion = motion_of({}, sources, &from_camera);
-  EXPECT_FALSE(from_camera);
+  motionblur::WithoutVector without;
+  const Motion motion = motion_of({}, sources, &without);
+  EXPECT_TRUE(without.still && !without.by_camera);
   for (int x = 0; x < 64; ++x) {
     EXPECT_EQ(motion.prev_x(x, 1), -motion.next_x(x, 1));
     EXPECT_EQ(motion.next_x(x, 1), picture.next_x(x, 1));
@@ -146,10 +146,10 @@ TEST(Motion, BackgroundFollowsTheRotationAlone) {
   picture.depth = Plane(64, 40, kInf);
   MotionSources sources = picture.sources();
   forget_vectors(sources);
-  bool from_camera = false;
+  motionblur::WithoutVector without;
   move_camera(sources, {3, 2, 5}, 0);
-  const Motion still = motion_of({}, sources, &from_camera);
-  EXPECT_TRUE(from_camera);
+  const Motion still = motion_of({}, sources, &without);
+  EXPECT_TRUE(without.by_camera && !without.still);
   move_camera(sources, {3, 2, 5}, 0.05);
   const Motion turned = motion_of({}, sources);
   for (int y = 0; y < 40; ++y)

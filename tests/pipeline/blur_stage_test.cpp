@@ -136,7 +136,10 @@ TEST(BlurStage, UnknownVectorsAreCompletedFromTheCamera) {
   EXPECT_LT(metrics::rmse(completed.red, expected), 1e-4);
   EXPECT_TRUE(says(completed.notes, "pixels without a vector move as the camera does"));
   EXPECT_TRUE(blurred({"motion_blur.unknown_vectors=camera"}, kVectors, noisy_frame).notes.empty());
+  const Result alone = blurred({"motion_blur.unknown_vectors=camera"}, kVectors, frame_with_holes, 2, {2});
+  EXPECT_TRUE(says(alone.notes, "pixels without a vector stay sharp"));
   const Result still = blurred({}, kVectors, frame_with_holes);
+  EXPECT_TRUE(still.notes.empty()) << "as was asked for";
   EXPECT_GT(metrics::rmse(still.red, expected), 0.02);
 }
 
