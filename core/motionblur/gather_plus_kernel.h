@@ -27,10 +27,11 @@ struct GatherPlusKernel {
 namespace detail {
 using namespace lanes;
 
-/// Half a pixel is a pixel's own extent; vectors of neighbours, and halves (of 11 bits), leave gaps of this size.
-inline constexpr float kCovers_px = 0.55F;
-/// A pixel this near covers where none does better: surfaces that grow or turn leave gaps between their pixels.
-inline constexpr float kNearlyCovers_px = 1;
+/// Half a pixel is a pixel's own extent, but for rounding.
+inline constexpr float kCovers_px = 0.505F;
+/// Where nothing covers, the farthest of the pixels this near goes on: surfaces that grow or turn leave gaps between
+/// their pixels, and where two part, what shows is the one behind.
+inline constexpr float kNearlyCovers_px = 0.58F;
 /// A surface whose exposure is shorter stays as it is.
 inline constexpr float kLeastWay_px = 0.5F;
 /// Places looked at along one motion: its own, then along the paths of what is there.
@@ -49,12 +50,12 @@ inline Offset displaced(const float* path, Int at, Float t) {
 /// What was found for one pixel at one time. Pixels are indices of the channels' planes.
 struct Found {
   Int nearest, nearly, farthest;
-  Float nearest_depth, nearly_off, farthest_depth;
+  Float nearest_depth, nearly_depth, farthest_depth;
   Mask covered, nearly_covered, any_place, outside;
 };
 inline Found nothing() {
   const Mask no = Float(0.0F) > Float(0.0F);
-  return {0, 0, 0, 3e38F, kNearlyCovers_px, -1.0F, no, no, no, no};
+  return {0, 0, 0, 3e38F, -1.0F, -1.0F, no, no, no, no};
 }
 
 /// Follows one motion from pixel (x, y) at time t: algorithms 3.5's "reaches the centre", in two dimensions and along
@@ -79,9 +80,9 @@ inline void follow(const GatherPlusKernel& k, Int x, Int y, Float t, Offset d, M
     f.nearest = select(nearer, pixel, f.nearest);
     f.nearest_depth = select(nearer, depth, f.nearest_depth);
     f.covered = f.covered | covers;
-    const Mask better = active & (off < f.nearly_off);
+    const Mask better = active & (off <= kNearlyCovers_px) & (depth > f.nearly_depth);
     f.nearly = select(better, pixel, f.nearly);
-    f.nearly_off = select(better, off, f.nearly_off);
+    f.nearly_depth = select(better, depth, f.nearly_depth);
     f.nearly_covered = f.nearly_covered | better;
     const Mask farther = active & (depth > f.farthest_depth);
     f.farthest = select(farther, pixel, f.farthest);

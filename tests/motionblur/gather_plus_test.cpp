@@ -1,0 +1,335 @@
+#include "core/motionblur/gather_plus.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "core/parallel/rows.h"
+#include "tests/motionblur/coverage.h"
+
+namespace aftershade::tests {
+namespace {
+
+using motionblur::GatherPlusParams;
+using motionblur::Motion;
+using motionblur::Path;
+using motionblur::ShutterPhase;
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInf = std::numeric_limits<float>::infinity();
+
+struct Surface {
+  float depth, prev_x, prev_y, next_x, next_y;
+};
+
+struct MovingScene {
+  Window window;
+  Motion motion;
+  Plane depth;
+  std::vector<Plane> channels;
+};
+
+/// Coordinates are absolute.
+MovingScene make_scene(Window window, const std::function<Surface(int, int)>& surface, int channels = 1) {
+  const int width = window.width(), height = window.height();
+  const auto plane = [&] { return Plane(width, height); };
+  MovingScene scene{window, {plane(), plane(), plane(), plane()}, plane(), {}};
+  for (int c = 0; c < channels; ++c) scene.channels.push_back(plane());
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const int ax = x + window.min_x, ay = y + window.min_y;
+      const Surface s = surface(ax, ay);
+      scene.depth(x, y) = s.depth;
+      scene.motion.prev_x(x, y) = s.prev_x;
+      scene.motion.prev_y(x, y) = s.prev_y;
+      scene.motion.next_x(x, y) = s.next_x;
+      scene.motion.next_y(x, y) = s.next_y;
+      for (int c = 0; c < channels; ++c)
+        scene.channels[static_cast<size_t>(c)](x, y) = noise(ax + 100, ay + 100, static_cast<uint32_t>(c), 0, 1);
+    }
+  return scene;
+}
+
+std::vector<Plane> blurred(const GatherPlusParams& params, const MovingScene& scene) {
+  std::vector<Plane> out;
+  std::vector<Plane*> pointers;
+  for (const Plane& plane : scene.channels) out.push_back(copy_of(plane));
+  for (Plane& plane : out) pointers.push_back(&plane);
+  const motionblur::Shutter shutter = motionblur::shutter_of(params, params.shutter_frames);
+  motionblur::gather_plus(params, {&scene.motion, scene.depth, scene.window, shutter}, pointers);
+  return out;
+}
+
+bool same_bits(const Plane& a, const Plane& b) {
+  for (int y = 0; y < a.height(); ++y)
+    if (std::memcmp(a.row(y), b.row(y), sizeof(float) * static_cast<size_t>(a.width())) != 0) return false;
+  return a.width() == b.width() && a.height() == b.height();
+}
+
+/// Two boxes that move on curves, before one another and before a moving background.
+Surface layered(int x, int y) {
+  if (x >= 20 && x < 34 && y >= 10 && y < 24) return {1, -21.3F, 8.7F, 25.1F, -3.3F};
+  if (x >= 28 && x < 52 && y >= 18 && y < 30) return {2, 30.7F, -2.3F, -34.9F, 4.1F};
+  return {4, -6.1F, -3.7F, 6.1F, 3.7F};
+}
+constexpr Window kLayered{0, 0, 71, 43};
+
+// ---- coverage, algorithms 3.5 ----
+
+/// Half-exposure vectors, for a shutter of half a frame.
+std::vector<Plane> blurred_layers(const BlurScene& scene) {
+  const int width = scene.window.width(), height = scene.window.height();
+  MovingScene moving = make_scene(scene.window, [&](int ax, int ay) {
+    const int x = ax - scene.window.min_x, y = ay - scene.window.min_y;
+    const float vx = 4 * scene.velocity.x(x, y), vy = 4 * scene.velocity.y(x, y);
+    return Surface{scene.depth(x, y), -vx, -vy, vx, vy};
+  });
+  copy_at(scene.channels[0], moving.channels[0], 0, 0);
+  EXPECT_EQ(moving.depth.width(), width);
+  EXPECT_EQ(moving.depth.height(), height);
+  return blurred({}, moving);
+}
+
+TEST(GatherPlusCoverage, IsTheTruthInEveryCase) {
+  for (const Layers& layers : {kEdge, kBar, kStill, kOpposed, kOvertaking, kOvertaken}) {
+    const CoverageError error = coverage_error(blurred_layers, layers);
+    std::cout << layers.name << ": mean " << error.mean << ", largest " << error.largest << "\n";
+    EXPECT_LT(error.mean, 0.005) << layers.name;
+    EXPECT_LT(error.largest, 0.005) << layers.name;
+  }
+}
+
+// ---- the definition ----
+
+double at(Path path, float prev, float next, double t) {
+  return motionblur::displacement<double>(path, double{prev}, double{next}, static_cast<float>(t));
+}
+
+/// The nearest pixel of the whole picture that covers (x, y) at time t; -1: none.
+int in_front(const MovingScene& scene, Path path, int x, int y, double t) {
+  int best = -1;
+  std::pair<float, double> first{kInf, 1};  // of equal depth the closest
+  for (int v = 0; v < scene.window.height(); ++v)
+    for (int u = 0; u < scene.window.width(); ++u) {
+      const Motion& m = scene.motion;
+      const double dx = u + at(path, m.prev_x(u, v), m.next_x(u, v), t) - x;
+      const double dy = v + at(path, m.prev_y(u, v), m.next_y(u, v), t) - y;
+      const double off = std::max(std::abs(dx), std::abs(dy));
+      const std::pair<float, double> here{scene.depth(u, v), off};
+      if (off <= 0.505 && here < first) first = here, best = v * scene.window.width() + u;
+    }
+  return best;
+}
+
+/// Written from the definition: pixels that some surface of the picture covers all the time. NaN elsewhere.
+Plane reference(const GatherPlusParams& params, const MovingScene& scene, int taps) {
+  const int width = scene.window.width();
+  const motionblur::Shutter shutter = motionblur::shutter_of(params, params.shutter_frames);
+  Plane out(width, scene.window.height());
+  for (int y = 0; y < out.height(); ++y)
+    for (int x = 0; x < width; ++x) {
+      double sum = 0;
+      for (int i = 0; i < taps; ++i) {
+        const double jitter = kBayer4x4[static_cast<size_t>((y & 3) * 4 + (x & 3))];
+        const int pixel =
+            in_front(scene, params.path, x, y, double{shutter.opens} + (i + jitter) / taps * double{shutter.length()});
+        sum += pixel < 0 ? double{kNan} : double{scene.channels[0](pixel % width, pixel / width)};
+      }
+      out(x, y) = static_cast<float>(sum / taps);
+    }
+  return out;
+}
+
+/// But for pixels where a border between surfaces passes within the 0.005 px that rounding is given.
+void expect_like_reference(const GatherPlusParams& params) {
+  const MovingScene scene = make_scene(kLayered, layered);
+  const std::vector<Plane> got = blurred(params, scene);
+  const Plane expected = reference(params, scene, params.least_taps);
+  int known = 0, different = 0;
+  for (int y = 0; y < expected.height(); ++y)
+    for (int x = 0; x < expected.width(); ++x) {
+      if (std::isnan(expected(x, y))) continue;
+      ++known;
+      different += std::abs(got[0](x, y) - expected(x, y)) > 1e-5;
+    }
+  EXPECT_GT(known, 0.5 * expected.width() * expected.height());
+  EXPECT_LE(different, 0.01 * known) << "of " << known;
+}
+
+GatherPlusParams with_taps(int taps) {
+  GatherPlusParams params;
+  params.least_taps = params.most_taps = taps;
+  return params;
+}
+
+TEST(GatherPlus, ShowsWhatIsInFrontAtEachTime) {
+  for (const Path path : {Path::straight, Path::separate, Path::curved})
+    for (const ShutterPhase phase :
+         {ShutterPhase::centred, ShutterPhase::start, ShutterPhase::end, ShutterPhase::custom}) {
+      SCOPED_TRACE(testing::Message() << "path " << static_cast<int>(path) << ", phase " << static_cast<int>(phase));
+      GatherPlusParams params = with_taps(12);
+      params.path = path;
+      params.shutter_phase = phase;
+      params.shutter_opens_frames = -0.1F;
+      expect_like_reference(params);
+    }
+}
+
+TEST(GatherPlus, EveryParameterCounts) {
+  const MovingScene scene = make_scene(kLayered, layered);
+  const Plane usual = std::move(blurred({}, scene)[0]);
+  const auto differs = [&](auto set) {
+    GatherPlusParams params;
+    set(params);
+    return !same_bits(blurred(params, scene)[0], usual);
+  };
+  EXPECT_TRUE(differs([](auto& p) { p.taps_per_px = 3; }));
+  EXPECT_TRUE(differs([](auto& p) { p.least_taps = 90; }));
+  EXPECT_TRUE(differs([](auto& p) { p.least_taps = p.most_taps = 8; }));
+  EXPECT_TRUE(differs([](auto& p) { p.motions = 1; }));
+}
+
+// ---- what must hold of any blur ----
+
+TEST(GatherPlus, WhatDoesNotMoveKeepsItsBits) {
+  const MovingScene still = make_scene({0, 0, 63, 47}, [](int, int) { return Surface{1, -0.7F, 0, 0.7F, 0}; });
+  EXPECT_TRUE(same_bits(blurred({}, still)[0], still.channels[0]));
+  const MovingScene beside = make_scene({0, 0, 95, 47}, [](int x, int) {
+    return x < 16 ? Surface{1, -20, 0, 20, 0} : Surface{2, 0, 0, 0, 0};  // 5 px to either side
+  });
+  const std::vector<Plane> out = blurred({}, beside);
+  int changed = 0;
+  for (int y = 0; y < 48; ++y)
+    for (int x = 0; x < 96; ++x)
+      if (x >= 32)
+        EXPECT_EQ(out[0](x, y), beside.channels[0](x, y));
+      else
+        changed += out[0](x, y) != beside.channels[0](x, y);
+  EXPECT_GT(changed, 48 * 19);
+}
+
+TEST(GatherPlus, AStillObjectStaysSharpBeforeAMovingBackground) {
+  const MovingScene scene = make_scene({0, 0, 63, 31}, [](int x, int) {
+    return x >= 20 && x < 44 ? Surface{1, 0, 0, 0, 0} : Surface{10, -30, 0, 30, 0};
+  });
+  const std::vector<Plane> out = blurred({}, scene);
+  for (int y = 0; y < 32; ++y)
+    for (int x = 20; x < 44; ++x) EXPECT_EQ(out[0](x, y), scene.channels[0](x, y));
+}
+
+TEST(GatherPlus, ANanStaysWhereItIs) {
+  for (const float bad : {kNan, kInf, -kInf, std::numeric_limits<float>::max()}) {
+    MovingScene scene = make_scene(kLayered, layered, 3);
+    scene.channels[1](30, 20) = bad;
+    const std::vector<Plane> out = blurred({}, scene);
+    for (size_t c = 0; c < 3; ++c)
+      for (int y = 0; y < 44; ++y)
+        for (int x = 0; x < 72; ++x)
+          if (x == 30 && y == 20)
+            EXPECT_EQ(std::memcmp(&out[c].row(y)[x], &scene.channels[c].row(y)[x], sizeof(float)), 0);
+          else
+            EXPECT_LE(std::abs(out[c](x, y)), 1.0001F);
+  }
+}
+
+TEST(GatherPlus, HolesInTheDepthAreBackground) {
+  MovingScene scene = make_scene(kLayered, layered);
+  std::vector<Plane> expected;
+  for (const float hole : {kInf, kNan, 0.0F, -1.0F}) {
+    for (int y = 0; y < 44; ++y)
+      for (int x = 0; x < 72; ++x)
+        if (layered(x, y).depth == 4) scene.depth(x, y) = hole;
+    std::vector<Plane> out = blurred({}, scene);
+    if (!expected.empty()) {
+      EXPECT_TRUE(same_bits(out[0], expected[0]));
+    }
+    expected = std::move(out);
+  }
+  EXPECT_TRUE(same_bits(expected[0], blurred({}, make_scene(kLayered, layered))[0]));
+}
+
+TEST(GatherPlus, DoesNotDependOnTheUnitOfLength) {
+  MovingScene scene = make_scene(kLayered, layered);
+  const std::vector<Plane> metres = blurred({}, scene);
+  for (int y = 0; y < 44; ++y)
+    for (int x = 0; x < 72; ++x) scene.depth(x, y) *= 1024;
+  EXPECT_TRUE(same_bits(blurred({}, scene)[0], metres[0]));
+}
+
+TEST(GatherPlus, DoesNotDependOnThreads) {
+  const MovingScene scene = make_scene(kLayered, layered);
+  const std::vector<Plane> many = blurred({}, scene);
+  set_thread_count(1);
+  const std::vector<Plane> one = blurred({}, scene);
+  set_thread_count(0);
+  EXPECT_TRUE(same_bits(many[0], one[0]));
+}
+
+/// 32 px around the picture are more than anything moves.
+TEST(GatherPlus, DoesNotDependOnTheDataWindow) {
+  const auto surface = [](int x, int y) { return layered(x, y); };
+  const std::vector<Plane> small = blurred({}, make_scene({-45, -37, 100, 90}, surface));
+  const std::vector<Plane> large = blurred({}, make_scene({-61, -70, 133, 110}, surface));
+  for (int y = 0; y < 44; ++y)
+    for (int x = 0; x < 72; ++x) EXPECT_EQ(small[0](x + 45, y + 37), large[0](x + 61, y + 70));
+}
+
+TEST(GatherPlus, BlursAnyNumberOfChannelsAlike) {
+  MovingScene scene = make_scene(kLayered, layered, 6);
+  for (Plane& channel : scene.channels) copy_at(scene.channels[5], channel, 0, 0);
+  const std::vector<Plane> out = blurred({}, scene);
+  for (const Plane& channel : out) EXPECT_TRUE(same_bits(channel, out[0]));
+}
+
+TEST(GatherPlus, NothingDarkensAtBorders) {
+  MovingScene scene = make_scene(kLayered, layered);
+  for (int y = 0; y < 44; ++y)
+    for (int x = 0; x < 72; ++x) scene.channels[0](x, y) = 0.7F;
+  EXPECT_TRUE(same_bits(blurred({}, scene)[0], scene.channels[0]));
+  // 1 beside the border and 0 inside: what comes from outside is left out, not taken from the border's pixel
+  MovingScene line = make_scene(kLayered, [](int, int) { return Surface{1, -40, 0, 40, 0}; });
+  for (int y = 0; y < 44; ++y)
+    for (int x = 0; x < 72; ++x) line.channels[0](x, y) = x == 0 ? 1.0F : 0.0F;
+  const std::vector<Plane> out = blurred({}, line);
+  for (int y = 0; y < 44; ++y) EXPECT_NEAR(out[0](0, y), 0.5 / 10, 0.02);
+}
+
+TEST(GatherPlus, IsTheSameForMirroredPictures) {
+  GatherPlusParams params = with_taps(256);
+  const MovingScene scene = make_scene(kLayered, layered);
+  MovingScene mirrored = make_scene(kLayered, [](int x, int y) {
+    const Surface s = layered(71 - x, 43 - y);
+    return Surface{s.depth, -s.prev_x, -s.prev_y, -s.next_x, -s.next_y};
+  });
+  for (int y = 0; y < 44; ++y)
+    for (int x = 0; x < 72; ++x) mirrored.channels[0](x, y) = scene.channels[0](71 - x, 43 - y);
+  const std::vector<Plane> a = blurred(params, scene), b = blurred(params, mirrored);
+  double sum = 0;
+  for (int y = 0; y < 44; ++y)
+    for (int x = 0; x < 72; ++x) sum += std::abs(double{a[0](x, y)} - double{b[0](71 - x, 43 - y)});
+  EXPECT_LT(sum / (72 * 44), 0.004);
+}
+
+TEST(GatherPlusEnergy, OfOneMovingLayerStays) {
+  constexpr int kColumns = 31, kRows = 17, kMargin = 24;
+  const Window window{0, 0, 4 * kColumns + 2 * kMargin - 1, 4 * kRows + 2 * kMargin - 1};
+  MovingScene scene = make_scene(window, [](int, int) { return Surface{3, -53.2F, 28.4F, 53.2F, -28.4F}; });
+  for (int y = 0; y < window.height(); ++y)
+    for (int x = 0; x < window.width(); ++x)
+      scene.channels[0](x, y) = x % kColumns == 5 && y % kRows == 3 ? 10.0F : 0.01F;
+  const std::vector<Plane> out = blurred({}, scene);
+  double before = 0, after = 0, brightest = 0;
+  for (int y = kMargin; y < kMargin + 4 * kRows; ++y)
+    for (int x = kMargin; x < kMargin + 4 * kColumns; ++x) {
+      before += scene.channels[0](x, y);
+      after += out[0](x, y);
+      brightest = std::max(brightest, double{out[0](x, y)});
+    }
+  EXPECT_LT(brightest, 1.5) << "the lights are spread";
+  EXPECT_NEAR(after / before, 1, 1e-4);
+}
+
+}  // namespace
+}  // namespace aftershade::tests
