@@ -41,6 +41,7 @@ std::unique_ptr<Stage> make_stage(const motionblur::ScalableBlurParams& params);
 std::unique_ptr<Stage> make_stage(const motionblur::Mcguire2012Params& params);
 std::unique_ptr<Stage> make_stage(const motionblur::Guertin2014Params& params);
 std::unique_ptr<Stage> make_stage(const motionblur::GatherPlusParams& params);
+std::unique_ptr<Stage> make_stage(const motionblur::ReconstructParams& params);
 
 inline std::unique_ptr<Stage> make_stage(const preset::StageParams& params) {
   return std::visit([](const auto& p) { return make_stage(p); }, params);

@@ -15,6 +15,7 @@
 #include "core/motionblur/gather_plus.h"
 #include "core/motionblur/guertin2014.h"
 #include "core/motionblur/mcguire2012.h"
+#include "core/motionblur/reconstruct.h"
 #include "core/motionblur/scalable_blur.h"
 #include "core/preset/accumulative_ssao.h"
 #include "core/preset/temporal_refinement.h"
@@ -33,7 +34,7 @@ using StageParams =
                  filter::BilateralUpsampleParams, filter::CrossBilateralBlurParams, temporal::SelectiveTemporalParams,
                  temporal::TemporalBlurParams, temporal::TemporalWindowParams, ao::ApplyAoParams,
                  motionblur::ScalableBlurParams, motionblur::Mcguire2012Params, motionblur::Guertin2014Params,
-                 motionblur::GatherPlusParams>;
+                 motionblur::GatherPlusParams, motionblur::ReconstructParams>;
 
 /// Calls `visit(std::type_identity<Params>{})` for every method in the list's order.
 template <class Visit>

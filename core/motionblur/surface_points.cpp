@@ -1,0 +1,232 @@
+// Where pieces of surface are while the shutter is open. Plain floats: every point takes its own way.
+#include "core/motionblur/surface_points.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace aftershade::motionblur {
+
+namespace {
+
+/// Depths that differ by a smaller share may be of one surface ...
+constexpr float kOneSurface = 0.05F;
+/// ... if the shutter does not tear them further apart, in pixels.
+constexpr float kTorn_px = 1;
+/// A surface nearer by this share hides what is behind it.
+constexpr float kHides = 0.03F;
+/// A vector this close to the camera's is of a surface that stands still.
+constexpr float kStanding_px = 0.25F;
+/// A vector that leads back this close to where it came from is of the same surface.
+constexpr float kReturns_px = 2;
+/// Share of a neighbour that is found again below which it is of another shot (algorithms 13).
+constexpr double kSameShot = 0.4;
+
+bool is_usable(const SequenceFrame& frame, int x, int y) {
+  return std::all_of(frame.channels.begin(), frame.channels.end(),
+                     [&](ConstPlaneView plane) { return std::abs(plane(x, y)) < 1e30F; });
+}
+
+SurfacePoint point_of(const SequenceFrame& frame, int x, int y) {
+  const Motion& motion = *frame.motion;
+  SurfacePoint point{};
+  point.x = static_cast<float>(x);
+  point.y = static_cast<float>(y);
+  point.prev_x = motion.prev_x(x, y), point.prev_y = motion.prev_y(x, y);
+  point.next_x = motion.next_x(x, y), point.next_y = motion.next_y(x, y);
+  point.depth = finite_depth(frame.depth, x, y);
+  point.pixel = y * frame.window.width() + x;
+  return point;
+}
+
+struct Rate {
+  float x, y;
+};
+Rate rate_of(const SurfacePoint& p) { return {0.5F * (p.next_x - p.prev_x), 0.5F * (p.next_y - p.prev_y)}; }
+
+bool is_one_surface(const SurfacePoint& a, const SurfacePoint& b, Shutter shutter) {
+  const Rate ra = rate_of(a), rb = rate_of(b);
+  const float longest = std::max(std::abs(shutter.opens), std::abs(shutter.closes));
+  return std::abs(a.depth - b.depth) < kOneSurface * std::min(a.depth, b.depth) &&
+         (std::abs(ra.x - rb.x) + std::abs(ra.y - rb.y)) * longest < kTorn_px;
+}
+
+/// Sets the edges of a grid of points, one a pixel.
+void set_edges(std::vector<SurfacePoint>& grid, int width, int height, Shutter shutter) {
+  constexpr SurfacePoint::Edge kFree{0.5F, 0};
+  for (SurfacePoint& p : grid) p.left = p.right = p.top = p.bottom = kFree;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      SurfacePoint& p = grid[static_cast<size_t>(y * width + x)];
+      if (x + 1 < width) {
+        SurfacePoint& q = grid[static_cast<size_t>(y * width + x + 1)];
+        if (is_one_surface(p, q, shutter))
+          p.right = q.left = {0.5F * (q.x - p.x), 0.5F * (rate_of(q).x - rate_of(p).x)};
+      }
+      if (y + 1 < height) {
+        SurfacePoint& q = grid[static_cast<size_t>((y + 1) * width + x)];
+        if (is_one_surface(p, q, shutter))
+          p.bottom = q.top = {0.5F * (q.y - p.y), 0.5F * (rate_of(q).y - rate_of(p).y)};
+      }
+    }
+}
+
+/// The reprojections from a neighbour's camera to those that place a standing surface.
+struct Cameras {
+  std::optional<CameraReprojection> towards, here, before, after;
+};
+Cameras cameras_of(const std::vector<SequenceFrame>& sequence, size_t index) {
+  const SequenceFrame& from = sequence[index];
+  const int f = sequence.front().number;
+  const auto to = [&](int number) -> std::optional<CameraReprojection> {
+    for (const SequenceFrame& frame : sequence)
+      if (frame.number == number && frame.camera && from.camera)
+        return CameraReprojection::create(*from.camera, *frame.camera);
+    return std::nullopt;
+  };
+  return {to(from.number < f ? from.number + 1 : from.number - 1), to(f), to(f - 1), to(f + 1)};
+}
+
+/// Positions in f-1, f, f+1.
+struct Places {
+  std::array<double, 3> x, y;
+  double depth;
+};
+
+/// By the cameras, if the pixel's vector says that its surface stands still.
+std::optional<Places> standing_places(const Cameras& cameras, const SequenceFrame& frame, const SurfacePoint& p,
+                                      bool forwards) {
+  if (!cameras.towards || !cameras.here || (!cameras.before && !cameras.after)) return std::nullopt;
+  const double px = double{p.x} + frame.window.min_x + 0.5, py = double{p.y} + frame.window.min_y + 0.5;
+  const double z = p.depth;
+  const Vec3 next = (*cameras.towards)(px, py, z);
+  const double off_x = next.x - px - (forwards ? p.next_x : p.prev_x);
+  const double off_y = next.y - py - (forwards ? p.next_y : p.prev_y);
+  if (!(off_x * off_x + off_y * off_y < kStanding_px * kStanding_px)) return std::nullopt;
+  const Vec3 here = (*cameras.here)(px, py, z);
+  const Vec3 before = cameras.before ? (*cameras.before)(px, py, z) : here * 2.0 - (*cameras.after)(px, py, z);
+  const Vec3 after = cameras.after ? (*cameras.after)(px, py, z) : here * 2.0 - before;
+  return Places{{before.x - 0.5, here.x - 0.5, after.x - 0.5}, {before.y - 0.5, here.y - 0.5, after.y - 0.5}, here.z};
+}
+
+/// By the pixel's own vectors, on a parabola; only a step away.
+Places moving_places(const SequenceFrame& frame, const SurfacePoint& p, bool forwards) {
+  const double x = double{p.x} + frame.window.min_x, y = double{p.y} + frame.window.min_y;
+  const double near_x = forwards ? p.next_x : p.prev_x, near_y = forwards ? p.next_y : p.prev_y;
+  const double bend_x = p.next_x + p.prev_x, bend_y = p.next_y + p.prev_y;
+  Places places{{x, x + near_x, x + 2 * near_x + bend_x}, {y, y + near_y, y + 2 * near_y + bend_y}, p.depth};
+  if (!forwards) {
+    std::swap(places.x[0], places.x[2]);
+    std::swap(places.y[0], places.y[2]);
+  }
+  return places;
+}
+
+/// Moves a point of a neighbour to where it is in f. False when nobody knows.
+bool place_in(const SequenceFrame& f, const Cameras& cameras, const SequenceFrame& from, SurfacePoint& p) {
+  const bool forwards = from.number < f.number;
+  std::optional<Places> places = standing_places(cameras, from, p, forwards);
+  if (!places && std::abs(from.number - f.number) == 1) places = moving_places(from, p, forwards);
+  if (!places) return false;
+  p.x = static_cast<float>(places->x[1] - f.window.min_x);
+  p.y = static_cast<float>(places->y[1] - f.window.min_y);
+  p.prev_x = static_cast<float>(places->x[0] - places->x[1]);
+  p.prev_y = static_cast<float>(places->y[0] - places->y[1]);
+  p.next_x = static_cast<float>(places->x[2] - places->x[1]);
+  p.next_y = static_cast<float>(places->y[2] - places->y[1]);
+  if (p.depth < 1e30F) p.depth = static_cast<float>(places->depth);
+  return std::abs(p.x) + std::abs(p.y) < 1e6F && std::abs(p.prev_x) + std::abs(p.prev_y) < 1e6F &&
+         std::abs(p.next_x) + std::abs(p.next_y) < 1e6F;
+}
+
+enum class Sight { seen, hidden, contradicted };
+
+/// What f shows around the place: `hidden` when all of its pixels there are nearer, or there is none.
+Sight sight_of(const SequenceFrame& f, const SurfacePoint& p) {
+  const int x0 = static_cast<int>(std::floor(p.x)), y0 = static_cast<int>(std::floor(p.y));
+  bool hidden = true, seen = false;
+  for (int y = std::max(y0, 0); y <= std::min(y0 + 1, f.window.height() - 1); ++y)
+    for (int x = std::max(x0, 0); x <= std::min(x0 + 1, f.window.width() - 1); ++x) {
+      const float z = finite_depth(f.depth, x, y);
+      hidden = hidden && z < p.depth * (1 - kHides);
+      seen = seen || std::abs(z - p.depth) <= kOneSurface * p.depth;
+    }
+  return hidden ? Sight::hidden : seen ? Sight::seen : Sight::contradicted;
+}
+
+}  // namespace
+
+void add_points(const SequenceFrame& frame, Shutter shutter, std::vector<SurfacePoint>& points) {
+  const int width = frame.window.width(), height = frame.window.height();
+  std::vector<SurfacePoint> grid;
+  grid.reserve(static_cast<size_t>(width) * static_cast<size_t>(height));
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) grid.push_back(point_of(frame, x, y));
+  set_edges(grid, width, height, shutter);
+  for (const SurfacePoint& p : grid)
+    if (is_usable(frame, p.pixel % width, p.pixel / width)) points.push_back(p);
+}
+
+void add_hidden_points(const std::vector<SequenceFrame>& sequence, size_t index, Shutter shutter,
+                       std::vector<SurfacePoint>& points) {
+  const SequenceFrame &f = sequence.front(), &from = sequence[index];
+  const int width = from.window.width(), height = from.window.height();
+  const Cameras cameras = cameras_of(sequence, index);
+  std::vector<SurfacePoint> grid;
+  std::vector<bool> hidden;
+  int64_t seen = 0, known = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      grid.push_back(point_of(from, x, y));
+      const bool placed = place_in(f, cameras, from, grid.back());
+      const Sight sight = placed ? sight_of(f, grid.back()) : Sight::seen;
+      known += placed && sight != Sight::hidden;
+      seen += placed && sight == Sight::seen;
+      hidden.push_back(sight == Sight::hidden && is_usable(from, x, y));
+    }
+  if (static_cast<double>(seen) < kSameShot * static_cast<double>(known)) return;
+  set_edges(grid, width, height, shutter);
+  for (size_t i = 0; i < grid.size(); ++i)
+    if (hidden[i]) {
+      grid[i].frame = static_cast<int>(index);
+      points.push_back(grid[i]);
+    }
+}
+
+std::vector<Plane> channels_in(const SequenceFrame& frame, const SequenceFrame& neighbour, int step) {
+  std::vector<Plane> out;
+  for (const ConstPlaneView& plane : frame.channels) out.push_back(copy_of(plane));
+  const auto vector = [&](const SurfacePoint& p, int to) {
+    return to < 0 ? Rate{p.prev_x, p.prev_y} : Rate{p.next_x, p.next_y};
+  };
+  const Window w = neighbour.window;
+  std::vector<float> sum(out.size());
+  for (int y = 0; y < frame.window.height(); ++y)
+    for (int x = 0; x < frame.window.width(); ++x) {
+      const SurfacePoint p = point_of(frame, x, y);
+      const Rate way = vector(p, step);
+      if (!(std::abs(way.x) + std::abs(way.y) < 1e6F)) continue;
+      const float px = p.x + way.x + static_cast<float>(frame.window.min_x - w.min_x);
+      const float py = p.y + way.y + static_cast<float>(frame.window.min_y - w.min_y);
+      const int x0 = static_cast<int>(std::floor(px)), y0 = static_cast<int>(std::floor(py));
+      float weight = 0;
+      std::fill(sum.begin(), sum.end(), 0.0F);
+      for (int j = std::max(y0, 0); j <= std::min(y0 + 1, w.height() - 1); ++j)
+        for (int i = std::max(x0, 0); i <= std::min(x0 + 1, w.width() - 1); ++i) {
+          const SurfacePoint q = point_of(neighbour, i, j);
+          const Rate back = vector(q, -step);
+          const float off_x = q.x + back.x - (px - way.x), off_y = q.y + back.y - (py - way.y);
+          if (std::abs(q.depth - p.depth) > kOneSurface * p.depth ||
+              !(off_x * off_x + off_y * off_y < kReturns_px * kReturns_px) || !is_usable(neighbour, i, j))
+            continue;
+          const float share = (1 - std::abs(px - q.x)) * (1 - std::abs(py - q.y));
+          weight += share;
+          for (size_t c = 0; c < out.size(); ++c) sum[c] += share * neighbour.channels[c](i, j);
+        }
+      if (weight < 0.5F) continue;
+      for (size_t c = 0; c < out.size(); ++c) out[c](x, y) = sum[c] / weight;
+    }
+  return out;
+}
+
+}  // namespace aftershade::motionblur

@@ -1,0 +1,61 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "core/camera/camera.h"
+#include "core/image/plane.h"
+#include "core/image/window.h"
+#include "core/motionblur/motion.h"
+
+namespace aftershade::motionblur {
+
+/// A frame as forward reconstruction reads it: the one that is blurred, or one of its neighbours. Planes cover
+/// `window`.
+struct SequenceFrame {
+  int number = 0;
+  Window window;
+  std::optional<Camera> camera;
+  ConstPlaneView depth;  ///< metres; +inf, NaN, <= 0: background. Empty (data == nullptr): everything at one depth
+  const Motion* motion = nullptr;
+  std::vector<ConstPlaneView> channels;  ///< blurred together
+};
+
+/// A piece of surface that one pixel of a frame shows, on its way through the exposure of frame f. Coordinates are
+/// pixels of f's window, pixel centres at integers; it covers the box x - left .. x + right, y - top .. y + bottom.
+struct SurfacePoint {
+  /// Distance from the centre to an edge: half a pixel, or half of the way to the neighbour on the same surface, so
+  /// that a surface that grows or turns has no cracks. At time t it is `at_frame` + t * `per_frame`.
+  struct Edge {
+    float at_frame, per_frame;
+  };
+  float x, y;                            ///< in f
+  float prev_x, prev_y, next_x, next_y;  ///< in f-1 and f+1, minus in f
+  float depth;                           ///< metres; 1e30 for background
+  Edge left, right, top, bottom;
+  int frame;  ///< f: 0; else the neighbour's index, counted from 1
+  int pixel;  ///< y * width + x in its own frame
+};
+
+/// What pixels of frame f show: all that can be used (finite channels).
+void add_points(const SequenceFrame& frame, Shutter shutter, std::vector<SurfacePoint>& points);
+
+/// What a neighbour shows and f does not: pieces of surface that lie behind f's surfaces or outside its window. Those
+/// that move as the camera says are placed by the cameras of `sequence` (index 0 is f), exactly; others by their own
+/// vectors, of f-1 and f+1 alone. A neighbour of which f finds less than 40 % again is of another shot, and shows
+/// nothing. `index` (> 0) is the neighbour's place in `sequence`.
+void add_hidden_points(const std::vector<SequenceFrame>& sequence, size_t index, Shutter shutter,
+                       std::vector<SurfacePoint>& points);
+
+/// The same surface's channels in a neighbour, at the pixels of `frame`: bilinear over pixels of like depth whose
+/// vector leads back; the frame's own where there are none. `step` is -1 or 1, the neighbour's place.
+std::vector<Plane> channels_in(const SequenceFrame& frame, const SequenceFrame& neighbour, int step);
+
+/// Depth as comparisons want it.
+inline float finite_depth(ConstPlaneView depth, int x, int y) {
+  constexpr float kBackground = 1e30F;
+  if (depth.data == nullptr) return kBackground;
+  const float z = depth(x, y);
+  return z > 0 && z < kBackground ? z : kBackground;
+}
+
+}  // namespace aftershade::motionblur
