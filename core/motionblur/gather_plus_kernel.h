@@ -1,7 +1,7 @@
 #pragma once
 #include "core/math/sampling.h"
 #include "core/motionblur/gather_plus_tiles.h"
-#include "core/simd/lanes.h"
+#include "core/simd/math.h"
 
 /// The layered gather, one row; see gather_plus.h for the method.
 namespace aftershade::motionblur {
@@ -58,13 +58,17 @@ inline Found nothing() {
   return {0, 0, 0, 3e38F, -1.0F, -1.0F, no, no, no, no};
 }
 
+/// From x to the pixel that a surface comes from which is displaced by d; outside the image for all that are far.
+inline Offset origin_of(const GatherPlusKernel& k, Offset d) {
+  const Float far = static_cast<float>(k.width + k.height);
+  return {round_small(clamp(-d.x, -far, far)), round_small(clamp(-d.y, -far, far))};
+}
+
 /// Follows one motion from pixel (x, y) at time t: algorithms 3.5's "reaches the centre", in two dimensions and along
-/// each pixel's own path.
-inline void follow(const GatherPlusKernel& k, Int x, Int y, Float t, Offset d, Mask active, Found& f) {
-  for (int place = 0; place < kPlaces && any(active); ++place) {
-    const Float ox = round(-d.x), oy = round(-d.y);
-    const Float far = static_cast<float>(k.width + k.height);
-    const Int qx = x + to_int(clamp(ox, -far, far)), qy = y + to_int(clamp(oy, -far, far));
+/// each pixel's own path. `o` is the first place. A place behind what covers already leads nowhere.
+inline void follow(const GatherPlusKernel& k, Int x, Int y, Float t, Offset o, Mask active, Found& f) {
+  for (int place = 0; place < kPlaces; ++place) {
+    const Int qx = x + to_int(o.x), qy = y + to_int(o.y);
     const Mask inside = (qx >= Int(0)) & (qx < Int(k.width)) & (qy >= Int(0)) & (qy < Int(k.height));
     f.outside = f.outside | (active & !inside);
     active = active & inside;
@@ -74,7 +78,7 @@ inline void follow(const GatherPlusKernel& k, Int x, Int y, Float t, Offset d, M
     const Int pixel = cy * Int(k.channel_stride) + cx;
     const Float depth = gather(k.records, record + Int(kRecordDepth));
     const Offset own = displaced(k.records, record, t);
-    const Float off = max(abs(ox + own.x), abs(oy + own.y));
+    const Float off = max(abs(o.x + own.x), abs(o.y + own.y));
     const Mask covers = active & (off <= kCovers_px);
     const Mask nearer = covers & (depth < f.nearest_depth);
     f.nearest = select(nearer, pixel, f.nearest);
@@ -88,8 +92,9 @@ inline void follow(const GatherPlusKernel& k, Int x, Int y, Float t, Offset d, M
     f.farthest = select(farther, pixel, f.farthest);
     f.farthest_depth = select(farther, depth, f.farthest_depth);
     f.any_place = f.any_place | active;
-    active = active & !covers;
-    d = own;
+    active = active & !covers & (depth < f.nearest_depth);
+    if (!any(active)) break;
+    o = origin_of(k, own);
   }
 }
 
@@ -101,12 +106,15 @@ struct Seen {
 inline Seen seen_at(const GatherPlusKernel& k, Int x, int y, Int tile, Float count, Float t, Mask active) {
   Found f = nothing();
   const Int own = Int(y * k.record_stride) + min(x, Int(k.width - 1)) * Int(kRecordFloats);
-  follow(k, x, Int(y), t, displaced(k.records, own, t), active, f);
+  const Offset first = origin_of(k, displaced(k.records, own, t));
+  follow(k, x, Int(y), t, first, active, f);
   for (int i = 0; i < k.tiles->motions; ++i) {
     const Mask used = active & (Float(static_cast<float>(i)) < count);
     if (!any(used)) break;
     const Int path = (tile * Int(k.tiles->motions) + Int(i)) * Int(kPathFloats);
-    follow(k, x, Int(y), t, displaced(k.tiles->paths.data(), path, t), used, f);
+    const Offset o = origin_of(k, displaced(k.tiles->paths.data(), path, t));
+    const Mask elsewhere = used & !((o.x == first.x) & (o.y == first.y));
+    if (any(elsewhere)) follow(k, x, Int(y), t, o, elsewhere, f);
   }
   const Mask covered = f.covered | f.nearly_covered, uncovered = f.any_place & !f.outside;
   return {select(f.covered, f.nearest, select(f.nearly_covered, f.nearly, f.farthest)), active & (covered | uncovered)};
