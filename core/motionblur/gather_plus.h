@@ -24,7 +24,7 @@ namespace aftershade::motionblur {
 struct GatherPlusParams : PathParams {
   static constexpr std::string_view method = "gather-plus";
   static constexpr std::string_view summary = "layered gather from one frame, exact coverage at any speeds";
-  float taps_per_px = 1.5F;  ///< of the longest path that reaches the pixel's tile
+  float taps_per_px = 1;  ///< of the longest path that reaches the pixel's tile
   int least_taps = 24, most_taps = 256;
   int motions = 4;  ///< distinct ones per tile
   static const params::Table& table();
