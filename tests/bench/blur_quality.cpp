@@ -159,7 +159,7 @@ int main(int argc, char** argv) {
       continue;
     }
     tests::BlurCase blur = scene == "yard" ? tests::yard_blur_case(options.frames) : tests::scene_blur_case(scene);
-    blur.seam_runs = scene == "yard" ? options.seam_runs : kSceneSeamRuns;
+    blur.seam_runs = options.seam_runs > 0 ? options.seam_runs : scene == "yard" ? 1 : kSceneSeamRuns;
     for (params::Json& row : measure(blur, options.methods)) rows.push_back(std::move(row));
     if (scene == "yard" && !options.files.empty())
       rows.push_back(print(scene, std::filesystem::path(options.files).filename(), file_scores(blur, options.files)));

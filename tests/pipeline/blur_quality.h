@@ -36,6 +36,7 @@ inline constexpr BlurMethod kBlurMethods[] = {
     {.name = "mcguire2012", .preset = "mcguire2012", .has_clamp = true},
     {.name = "guertin2014", .preset = "guertin2014", .has_clamp = true},
     {.name = "gather-plus", .method = "gather-plus", .tile_px = 16},
+    {.name = "reconstruct", .method = "reconstruct", .tile_px = 32},
 };
 
 /// One stage, "motion_blur".
