@@ -58,16 +58,19 @@ class Tiles {
  public:
   Tiles(const SliceScene& scene, Window window)
       : window_(window),
-        columns_((window.width() + kTile - 1) / kTile),
-        rows_((window.height() + kTile - 1) / kTile),
+        first_x_(-(window.min_x & (kTile - 1))),
+        first_y_(-(window.min_y & (kTile - 1))),
+        columns_((window.width() - first_x_ + kTile - 1) / kTile),
+        rows_((window.height() - first_y_ + kTile - 1) / kTile),
         members_(static_cast<size_t>(columns_ * rows_)),
         longest_px_(members_.size()) {
     for (size_t i = 0; i < scene.points.size(); ++i) add(scene, static_cast<int>(i));
   }
   int count() const { return columns_ * rows_; }
   Window pixels(int tile) const {
-    const int x = tile % columns_ * kTile, y = tile / columns_ * kTile;
-    return {x, y, std::min(x + kTile, window_.width()) - 1, std::min(y + kTile, window_.height()) - 1};
+    const int x = first_x_ + tile % columns_ * kTile, y = first_y_ + tile / columns_ * kTile;
+    return {std::max(x, 0), std::max(y, 0), std::min(x + kTile, window_.width()) - 1,
+            std::min(y + kTile, window_.height()) - 1};
   }
   const std::vector<int>& members(int tile) const { return members_[static_cast<size_t>(tile)]; }
   float longest_px(int tile) const { return longest_px_[static_cast<size_t>(tile)]; }  ///< 0: nothing moves
@@ -78,10 +81,10 @@ class Tiles {
     const Window w = touched(p, scene.path, scene.shutter);
     const bool moving = p.frame > 0 || moves(p, scene.path, scene.shutter);
     const float way = moving ? static_cast<float>(std::max(w.width(), w.height())) : 0.0F;
-    for (int row = std::max(w.min_y, 0) / kTile; row <= std::min(w.max_y, window_.height() - 1) / kTile; ++row)
-      for (int column = std::max(w.min_x, 0) / kTile; column <= std::min(w.max_x, window_.width() - 1) / kTile;
-           ++column) {
-        if (w.max_x < 0 || w.max_y < 0) continue;
+    const Window inside = intersection(w, {0, 0, window_.width() - 1, window_.height() - 1});
+    if (inside.width() <= 0 || inside.height() <= 0) return;
+    for (int row = (inside.min_y - first_y_) / kTile; row <= (inside.max_y - first_y_) / kTile; ++row)
+      for (int column = (inside.min_x - first_x_) / kTile; column <= (inside.max_x - first_x_) / kTile; ++column) {
         const auto tile = static_cast<size_t>(row * columns_ + column);
         members_[tile].push_back(number);
         longest_px_[tile] = std::max(longest_px_[tile], way);
@@ -89,6 +92,7 @@ class Tiles {
   }
 
   Window window_;
+  int first_x_, first_y_;  ///< of tile 0; tiles are tied to absolute coordinates
   int columns_, rows_;
   std::vector<std::vector<int>> members_;
   std::vector<float> longest_px_;
@@ -114,8 +118,9 @@ void finish_tile(const SliceTile& tile, Window pixels, int slices, const Sequenc
       behind.farthest(x, y) = pixel.behind > 0 ? pixel.farthest : 0.0F;
       out.guessed(x, y) = std::max(1 - pixel.seen / whole, 0.0F);
       for (size_t c = 0; c < out.channels.size(); ++c) {
-        out.channels[c](x, y) = tile.colour(i, j)[c] / whole;
-        if (pixel.behind > 0) behind.channels[c](x, y) = tile.behind(i, j)[c] / pixel.behind;
+        const float centre = frame.channels[c](x, y);
+        out.channels[c](x, y) = centre + tile.colour(i, j)[c] / whole;
+        if (pixel.behind > 0) behind.channels[c](x, y) = centre + tile.behind(i, j)[c] / pixel.behind;
       }
     }
 }
@@ -163,13 +168,14 @@ class Guess {
   float weight_ = 0;
 };
 
-void fill_guessed(const Behind& behind, Reconstruction& out) {
+void fill_guessed(const SequenceFrame& frame, const Behind& behind, Reconstruction& out) {
   for_rows(out.guessed.height(), [&](int y) {
     Guess guess(behind);
     for (int x = 0; x < out.guessed.width(); ++x) {
       if (out.guessed(x, y) <= 0) continue;
       const std::vector<float>& colour = guess(x, y);
-      for (size_t c = 0; c < colour.size(); ++c) out.channels[c](x, y) += out.guessed(x, y) * colour[c];
+      for (size_t c = 0; c < colour.size(); ++c)
+        out.channels[c](x, y) += out.guessed(x, y) * (colour[c] - frame.channels[c](x, y));
     }
   });
 }
@@ -219,7 +225,7 @@ Reconstruction reconstruct(const ReconstructParams& params, const std::vector<Se
     }
     finish_tile(tile, pixels, slices, frame, out, behind);
   });
-  fill_guessed(behind, out);
+  fill_guessed(frame, behind, out);
   return out;
 }
 

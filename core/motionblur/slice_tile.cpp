@@ -10,8 +10,6 @@ namespace {
 
 /// Fragments of one pixel and slice whose depths differ by a smaller share are of one surface.
 constexpr float kOneSurface = 0.03F;
-/// What a farther neighbour saw counts for so much less where a nearer one saw it too.
-constexpr float kTrustPerFrame = 0.125F;
 /// Coverage above which a slice of a pixel is full: the rest are cracks and rounding.
 constexpr float kFull = 0.5F;
 /// Surfaces covered by less say nothing about what is behind.
@@ -44,8 +42,15 @@ SliceTile::SliceTile(const SliceScene& scene, int x0, int y0, int width, int hei
       pixels_(static_cast<size_t>(width * height)),
       colours_(pixels_.size() * channels_),
       behind_(pixels_.size() * channels_),
+      centre_(pixels_.size() * channels_),
       surface_(channels_),
-      slice_(channels_) {}
+      slice_(channels_) {
+  const std::vector<ConstPlaneView>& planes = scene.sequence->front().channels;
+  for (size_t pixel = 0; pixel < pixels_.size(); ++pixel)
+    for (size_t c = 0; c < channels_; ++c)
+      centre_[pixel * channels_ + c] =
+          planes[c](x0 + static_cast<int>(pixel) % width, y0 + static_cast<int>(pixel) / width);
+}
 
 void SliceTile::add_slice(const std::vector<int>& members, float t) {
   placed_.clear();
@@ -58,8 +63,8 @@ void SliceTile::add_slice(const std::vector<int>& members, float t) {
 /// The share of each pixel that the point's box covers.
 void SliceTile::splat(int member, float t) {
   const SurfacePoint& p = scene_.points[static_cast<size_t>(member)];
-  const float x = p.x + displacement(scene_.path, p.prev_x, p.next_x, t) - static_cast<float>(x0_);
-  const float y = p.y + displacement(scene_.path, p.prev_y, p.next_y, t) - static_cast<float>(y0_);
+  const float x = (p.x - static_cast<float>(x0_)) + displacement(scene_.path, p.prev_x, p.next_x, t);
+  const float y = (p.y - static_cast<float>(y0_)) + displacement(scene_.path, p.prev_y, p.next_y, t);
   const float left = x - edge_at(p.left, t), right = x + edge_at(p.right, t);
   const float top = y - edge_at(p.top, t), bottom = y + edge_at(p.bottom, t);
   const int first_x = std::max(static_cast<int>(std::floor(left + 0.5F)), 0);
@@ -96,7 +101,7 @@ void SliceTile::composite(size_t pixel, Fragment* first, Fragment* last, float t
     float coverage = 0;
     for (; end < last && end->depth <= begin->depth * (1 + kOneSurface); ++end) coverage += end->coverage;
     const float alpha = open * std::min(coverage, 1.0F);
-    add_surface(pixel, begin, end, coverage, alpha, t);
+    add_surface(pixel, begin, end, alpha, t);
     open -= alpha;
     begin = end;
   }
@@ -108,8 +113,9 @@ void SliceTile::composite(size_t pixel, Fragment* first, Fragment* last, float t
 }
 
 /// Adds fragments of one surface, of which the pixel shows `alpha`.
-void SliceTile::add_surface(size_t pixel, const Fragment* first, const Fragment* last, float, float alpha, float t) {
+void SliceTile::add_surface(size_t pixel, const Fragment* first, const Fragment* last, float alpha, float t) {
   Pixel& target = pixels_[pixel];
+  const float* centre = &centre_[pixel * channels_];
   std::fill(surface_.begin(), surface_.end(), 0.0F);
   const std::vector<SequenceFrame>& sequence = *scene_.sequence;
   const std::vector<Plane>* light = t < 0 ? scene_.before : scene_.after;
@@ -119,13 +125,13 @@ void SliceTile::add_surface(size_t pixel, const Fragment* first, const Fragment*
     const SurfacePoint& p = scene_.points[static_cast<size_t>(fragment->point)];
     const SequenceFrame& frame = sequence[static_cast<size_t>(p.frame)];
     const int width = frame.window.width(), x = p.pixel % width, y = p.pixel / width;
-    float weight = fragment->coverage;
-    for (int away = std::abs(frame.number - sequence.front().number); away > 0; --away) weight *= kTrustPerFrame;
+    const float weight = fragment->coverage * p.trust;
     sum += weight;
     for (size_t c = 0; c < channels_; ++c) {
       float value = frame.channels[c](x, y);
+      if (static_cast<int>(c) != frame.alpha) value *= p.light;
       if (p.frame == 0 && light != nullptr) value += change * ((*light)[c](x, y) - value);
-      surface_[c] += weight * value;
+      surface_[c] += weight * (value - centre[c]);
     }
     target.crossed = target.crossed || p.frame > 0 || moves(p, scene_.path, scene_.shutter);
   }

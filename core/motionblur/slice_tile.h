@@ -19,7 +19,8 @@ class SliceTile {
  public:
   static constexpr int kSize = 32;  ///< pixels, each way
 
-  /// What a pixel has gathered; colours in units of slices.
+  /// What a pixel has gathered. Colours are summed as differences from the pixel's own in f: where they agree the
+  /// result is that to the bit (an alpha of 1 stays 1).
   struct Pixel {
     float seen = 0;      ///< slices in which something was there
     float farthest = 0;  ///< depth of the farthest surface seen, metres
@@ -47,13 +48,13 @@ class SliceTile {
   void splat(int member, float t);
   void sort_by_pixel();
   void composite(size_t pixel, Fragment* first, Fragment* last, float t);
-  void add_surface(size_t pixel, const Fragment* first, const Fragment* last, float coverage, float alpha, float t);
+  void add_surface(size_t pixel, const Fragment* first, const Fragment* last, float alpha, float t);
 
   const SliceScene& scene_;
   int x0_, y0_, width_, height_;
   size_t channels_;
   std::vector<Pixel> pixels_;
-  std::vector<float> colours_, behind_, surface_, slice_;
+  std::vector<float> colours_, behind_, centre_, surface_, slice_;
   struct Placed {
     int pixel;
     Fragment fragment;

@@ -15,6 +15,10 @@ constexpr float kOneSurface = 0.05F;
 constexpr float kTorn_px = 1;
 /// A surface nearer by this share hides what is behind it.
 constexpr float kHides = 0.03F;
+/// What a farther neighbour saw counts for so much less where a nearer one saw it too ...
+constexpr float kTrustPerFrame = 0.125F;
+/// ... and so does, here, what lies beside a nearer surface, whose colour the pixel's filter has mixed into it.
+constexpr float kTrustAtEdge = 1e-3F;
 /// A vector this close to the camera's is of a surface that stands still.
 constexpr float kStanding_px = 0.25F;
 /// A vector that leads back this close to where it came from is of the same surface.
@@ -139,20 +143,85 @@ bool place_in(const SequenceFrame& f, const Cameras& cameras, const SequenceFram
          std::abs(p.next_x) + std::abs(p.next_y) < 1e6F;
 }
 
-enum class Sight { seen, hidden, contradicted };
+enum class Sight { seen, hidden, contradicted, unknown };
 
-/// What f shows around the place: `hidden` when all of its pixels there are nearer, or there is none.
+/// What f shows at the place: `hidden` when its pixel there is nearer, or there is none.
 Sight sight_of(const SequenceFrame& f, const SurfacePoint& p) {
-  const int x0 = static_cast<int>(std::floor(p.x)), y0 = static_cast<int>(std::floor(p.y));
-  bool hidden = true, seen = false;
-  for (int y = std::max(y0, 0); y <= std::min(y0 + 1, f.window.height() - 1); ++y)
-    for (int x = std::max(x0, 0); x <= std::min(x0 + 1, f.window.width() - 1); ++x) {
-      const float z = finite_depth(f.depth, x, y);
-      hidden = hidden && z < p.depth * (1 - kHides);
-      seen = seen || std::abs(z - p.depth) <= kOneSurface * p.depth;
-    }
-  return hidden ? Sight::hidden : seen ? Sight::seen : Sight::contradicted;
+  const int x = static_cast<int>(std::floor(p.x + 0.5F)), y = static_cast<int>(std::floor(p.y + 0.5F));
+  if (x < 0 || y < 0 || x >= f.window.width() || y >= f.window.height()) return Sight::hidden;
+  const float z = finite_depth(f.depth, x, y);
+  if (z < p.depth * (1 - kHides)) return Sight::hidden;
+  return z - p.depth <= kOneSurface * p.depth ? Sight::seen : Sight::contradicted;
 }
+
+/// Does one of the eight pixels around show something nearer?
+bool is_beside_nearer(const SequenceFrame& frame, int x, int y) {
+  const float nearer = finite_depth(frame.depth, x, y) * (1 - kHides);
+  for (int j = std::max(y - 1, 0); j <= std::min(y + 1, frame.window.height() - 1); ++j)
+    for (int i = std::max(x - 1, 0); i <= std::min(x + 1, frame.window.width() - 1); ++i)
+      if (finite_depth(frame.depth, i, j) < nearer) return true;
+  return false;
+}
+
+/// The light on a neighbour's surfaces, there and in f.
+class LightChange {
+ public:
+  LightChange(const SequenceFrame& f, const SequenceFrame& from, const std::vector<SurfacePoint>& grid)
+      : f_(f), from_(from), grid_(grid), here_(grid.size()), there_(grid.size()) {}
+
+  /// Point `i` of the grid is seen in f as well. Its colour there is that of the nearest pixel.
+  void add_seen(size_t i) {
+    const SurfacePoint& p = grid_[i];
+    const int width = from_.window.width(), x = p.pixel % width, y = p.pixel / width;
+    const int fx = static_cast<int>(std::floor(p.x + 0.5F)), fy = static_cast<int>(std::floor(p.y + 0.5F));
+    if (is_beside_nearer(from_, x, y) || is_beside_nearer(f_, fx, fy) || !is_usable(from_, x, y) ||
+        !is_usable(f_, fx, fy))
+      return;
+    here_[i] = light_of(f_, fx, fy);
+    there_[i] = light_of(from_, x, y);
+  }
+
+  /// The factor for point `i`, from the nearest seen pixels of like depth and motion, by the inverse square of the
+  /// distance; 1 where there are none.
+  float at(size_t i) const {
+    const int width = from_.window.width(), height = from_.window.height();
+    const int x = grid_[i].pixel % width, y = grid_[i].pixel / width;
+    float here = 0, there = 0;
+    int last = kSearch_px;
+    for (int ring = 1; ring <= last; ++ring)
+      for (int v = std::max(y - ring, 0); v <= std::min(y + ring, height - 1); ++v)
+        for (int u = x - ring; u <= x + ring; u += std::abs(v - y) == ring ? 1 : 2 * ring) {
+          if (u < 0 || u >= width) continue;
+          const auto j = static_cast<size_t>(v * width + u);
+          if (there_[j] <= 0 || !is_like(grid_[i], grid_[j])) continue;
+          const float weight = 1 / static_cast<float>((u - x) * (u - x) + (v - y) * (v - y));
+          here += weight * here_[j];
+          there += weight * there_[j];
+          last = std::min(last, ring + ring / 2 + 1);
+        }
+    return there > 0 ? std::clamp(here / there, 1 / kMost, kMost) : 1.0F;
+  }
+
+ private:
+  static constexpr int kSearch_px = 32;
+  static constexpr float kMost = 16;
+
+  static bool is_like(const SurfacePoint& a, const SurfacePoint& b) {
+    const Rate ra = rate_of(a), rb = rate_of(b);
+    return std::abs(a.depth - b.depth) < 2 * kOneSurface * a.depth &&
+           std::abs(ra.x - rb.x) + std::abs(ra.y - rb.y) < kTorn_px;
+  }
+  static float light_of(const SequenceFrame& frame, int x, int y) {
+    float sum = 0;
+    for (size_t c = 0; c < frame.channels.size(); ++c)
+      if (static_cast<int>(c) != frame.alpha) sum += std::max(frame.channels[c](x, y), 0.0F);
+    return sum;
+  }
+
+  const SequenceFrame &f_, &from_;
+  const std::vector<SurfacePoint>& grid_;
+  std::vector<float> here_, there_;
+};
 
 }  // namespace
 
@@ -173,24 +242,32 @@ void add_hidden_points(const std::vector<SequenceFrame>& sequence, size_t index,
   const int width = from.window.width(), height = from.window.height();
   const Cameras cameras = cameras_of(sequence, index);
   std::vector<SurfacePoint> grid;
-  std::vector<bool> hidden;
-  int64_t seen = 0, known = 0;
+  std::vector<Sight> sights;
+  int64_t seen = 0, hidden = 0;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       grid.push_back(point_of(from, x, y));
       const bool placed = place_in(f, cameras, from, grid.back());
-      const Sight sight = placed ? sight_of(f, grid.back()) : Sight::seen;
-      known += placed && sight != Sight::hidden;
-      seen += placed && sight == Sight::seen;
-      hidden.push_back(sight == Sight::hidden && is_usable(from, x, y));
+      sights.push_back(placed ? sight_of(f, grid.back()) : Sight::unknown);
+      seen += sights.back() == Sight::seen;
+      hidden += sights.back() == Sight::hidden || sights.back() == Sight::unknown;
     }
-  if (static_cast<double>(seen) < kSameShot * static_cast<double>(known)) return;
+  const auto known = static_cast<double>(grid.size()) - static_cast<double>(hidden);
+  if (static_cast<double>(seen) < kSameShot * known) return;
   set_edges(grid, width, height, shutter);
+  LightChange light(f, from, grid);
   for (size_t i = 0; i < grid.size(); ++i)
-    if (hidden[i]) {
-      grid[i].frame = static_cast<int>(index);
-      points.push_back(grid[i]);
-    }
+    if (sights[i] == Sight::seen) light.add_seen(i);
+  for (size_t i = 0; i < grid.size(); ++i) {
+    const int x = grid[i].pixel % width, y = grid[i].pixel / width;
+    if (sights[i] != Sight::hidden || !is_usable(from, x, y)) continue;
+    SurfacePoint p = grid[i];
+    p.frame = static_cast<int>(index);
+    p.light = light.at(i);
+    for (int away = std::abs(from.number - f.number); away > 0; --away) p.trust *= kTrustPerFrame;
+    if (is_beside_nearer(from, x, y)) p.trust *= kTrustAtEdge;
+    points.push_back(p);
+  }
 }
 
 std::vector<Plane> channels_in(const SequenceFrame& frame, const SequenceFrame& neighbour, int step) {

@@ -18,6 +18,7 @@ struct SequenceFrame {
   ConstPlaneView depth;  ///< metres; +inf, NaN, <= 0: background. Empty (data == nullptr): everything at one depth
   const Motion* motion = nullptr;
   std::vector<ConstPlaneView> channels;  ///< blurred together
+  int alpha = -1;                        ///< index of the alpha channel, or -1
 };
 
 /// A piece of surface that one pixel of a frame shows, on its way through the exposure of frame f. Coordinates are
@@ -32,8 +33,10 @@ struct SurfacePoint {
   float prev_x, prev_y, next_x, next_y;  ///< in f-1 and f+1, minus in f
   float depth;                           ///< metres; 1e30 for background
   Edge left, right, top, bottom;
-  int frame;  ///< f: 0; else the neighbour's index, counted from 1
-  int pixel;  ///< y * width + x in its own frame
+  float light = 1;  ///< factor that turns the neighbour's light on the surface into that of f; not for alpha
+  float trust = 1;  ///< weight of its colour beside others of the same surface
+  int frame;        ///< f: 0; else the neighbour's index, counted from 1
+  int pixel;        ///< y * width + x in its own frame
 };
 
 /// What pixels of frame f show: all that can be used (finite channels).
@@ -42,7 +45,9 @@ void add_points(const SequenceFrame& frame, Shutter shutter, std::vector<Surface
 /// What a neighbour shows and f does not: pieces of surface that lie behind f's surfaces or outside its window. Those
 /// that move as the camera says are placed by the cameras of `sequence` (index 0 is f), exactly; others by their own
 /// vectors, of f-1 and f+1 alone. A neighbour of which f finds less than 40 % again is of another shot, and shows
-/// nothing. `index` (> 0) is the neighbour's place in `sequence`.
+/// nothing. Their light is changed as it has changed, from there to f, on the nearest part of the same surface that
+/// both show: what is uncovered beside a moving object lies in that object's shadow in f. `index` (> 0) is the
+/// neighbour's place in `sequence`.
 void add_hidden_points(const std::vector<SequenceFrame>& sequence, size_t index, Shutter shutter,
                        std::vector<SurfacePoint>& points);
 

@@ -75,7 +75,7 @@ class Reconstruct final : public BlurStage {
     }
     for (Layer* layer : layers) {
       std::vector<motionblur::SequenceFrame> sequence{
-          {number, scene.window, work.frame.camera, scene.depth, &scene.motion, {}}};
+          {number, scene.window, work.frame.camera, scene.depth, &scene.motion, {}, layer->alpha}};
       for (const Plane& plane : layer->planes) sequence.front().channels.push_back(plane);
       for (size_t i = 0; i < neighbours.size(); ++i) add_neighbour(*neighbours[i], motions[i], *layer, sequence);
       motionblur::Reconstruction result = motionblur::reconstruct(params_, sequence, shutter(scene));
@@ -92,7 +92,7 @@ class Reconstruct final : public BlurStage {
                                    [&](const Layer& other) { return other.name == layer.name; });
     if (same == frame.layers.end() || same->planes.size() != layer.planes.size()) return;
     const ConstPlaneView depth = frame.has(Role::depth) ? ConstPlaneView(frame.depth()) : ConstPlaneView();
-    sequence.push_back({frame.number, frame.window, frame.camera, depth, &motion, {}});
+    sequence.push_back({frame.number, frame.window, frame.camera, depth, &motion, {}, layer.alpha});
     for (const Plane& plane : same->planes) sequence.back().channels.push_back(plane);
   }
 
