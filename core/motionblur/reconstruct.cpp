@@ -113,8 +113,9 @@ void finish_tile(const SliceTile& tile, Window pixels, int slices, const Sequenc
       const SliceTile::Pixel& pixel = tile.pixel(i, j);
       const bool finite = std::all_of(frame.channels.begin(), frame.channels.end(),
                                       [&](ConstPlaneView plane) { return std::abs(plane(x, y)) < 1e30F; });
-      if (!pixel.crossed || !finite) continue;
-      behind.nearest(x, y) = pixel.nearest;
+      const bool left = pixel.seen < whole;  // its surface has, and nothing took the place
+      if ((!pixel.crossed && !left) || !finite) continue;
+      behind.nearest(x, y) = pixel.behind > 0 ? pixel.nearest : 0.0F;
       behind.farthest(x, y) = pixel.behind > 0 ? pixel.farthest : 0.0F;
       out.guessed(x, y) = std::max(1 - pixel.seen / whole, 0.0F);
       for (size_t c = 0; c < out.channels.size(); ++c) {
@@ -129,9 +130,12 @@ void finish_tile(const SliceTile& tile, Window pixels, int slices, const Sequenc
 /// pixels' farther ones, by the inverse fourth power of the distance.
 class Guess {
  public:
-  Guess(const Behind& behind) : behind_(behind), sum_(behind.channels.size()) {}
+  Guess(const SequenceFrame& frame, const Behind& behind)
+      : frame_(frame), behind_(behind), sum_(behind.channels.size()) {}
 
+  /// Less the frame's own colour there, so that equal colours stay to the bit.
   const std::vector<float>& operator()(int x, int y) {
+    x_ = x, y_ = y;
     const float front = behind_.nearest(x, y);
     std::fill(sum_.begin(), sum_.end(), 0.0F);
     weight_ = 0;
@@ -145,8 +149,8 @@ class Guess {
             best = std::min(best, square);
             add(i, j, 1 / (square * square));
           }
-    if (weight_ == 0) add(x, y, 1);
-    for (float& value : sum_) value /= weight_;
+    if (weight_ == 0 && behind_.farthest(x, y) > 0) add(x, y, 1);
+    for (float& value : sum_) value /= std::max(weight_, 1e-30F);
     return sum_;
   }
 
@@ -160,22 +164,24 @@ class Guess {
   }
   void add(int x, int y, float weight) {
     weight_ += weight;
-    for (size_t c = 0; c < sum_.size(); ++c) sum_[c] += weight * behind_.channels[c](x, y);
+    for (size_t c = 0; c < sum_.size(); ++c)
+      sum_[c] += weight * (behind_.channels[c](x, y) - frame_.channels[c](x_, y_));
   }
 
+  const SequenceFrame& frame_;
   const Behind& behind_;
   std::vector<float> sum_;
   float weight_ = 0;
+  int x_ = 0, y_ = 0;
 };
 
 void fill_guessed(const SequenceFrame& frame, const Behind& behind, Reconstruction& out) {
   for_rows(out.guessed.height(), [&](int y) {
-    Guess guess(behind);
+    Guess guess(frame, behind);
     for (int x = 0; x < out.guessed.width(); ++x) {
       if (out.guessed(x, y) <= 0) continue;
       const std::vector<float>& colour = guess(x, y);
-      for (size_t c = 0; c < colour.size(); ++c)
-        out.channels[c](x, y) += out.guessed(x, y) * (colour[c] - frame.channels[c](x, y));
+      for (size_t c = 0; c < colour.size(); ++c) out.channels[c](x, y) += out.guessed(x, y) * colour[c];
     }
   });
 }
