@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/parallel/rows.h"
+
 namespace aftershade::motionblur {
 
 namespace {
@@ -23,6 +25,8 @@ constexpr float kTrustAtEdge = 1e-3F;
 constexpr float kStanding_px = 0.25F;
 /// A vector that leads back this close to where it came from is of the same surface.
 constexpr float kReturns_px = 2;
+/// Depth of a point of which nobody knows where it is: it is like no other.
+constexpr float kNowhere = -1;
 /// Share of a neighbour that is found again below which it is of another shot (algorithms 13).
 constexpr double kSameShot = 0.4;
 
@@ -154,6 +158,13 @@ Sight sight_of(const SequenceFrame& f, const SurfacePoint& p) {
   return z - p.depth <= kOneSurface * p.depth ? Sight::seen : Sight::contradicted;
 }
 
+/// Of what f would have to show, it shows too little.
+bool is_another_shot(const std::vector<Sight>& sights) {
+  const auto seen = std::count(sights.begin(), sights.end(), Sight::seen);
+  const auto contradicted = std::count(sights.begin(), sights.end(), Sight::contradicted);
+  return static_cast<double>(seen) < kSameShot * static_cast<double>(seen + contradicted);
+}
+
 /// Does one of the eight pixels around show something nearer?
 bool is_beside_nearer(const SequenceFrame& frame, int x, int y) {
   const float nearer = finite_depth(frame.depth, x, y) * (1 - kHides);
@@ -241,68 +252,82 @@ void add_hidden_points(const std::vector<SequenceFrame>& sequence, size_t index,
   const SequenceFrame &f = sequence.front(), &from = sequence[index];
   const int width = from.window.width(), height = from.window.height();
   const Cameras cameras = cameras_of(sequence, index);
-  std::vector<SurfacePoint> grid;
-  std::vector<Sight> sights;
-  int64_t seen = 0, hidden = 0;
-  for (int y = 0; y < height; ++y)
+  std::vector<SurfacePoint> grid(static_cast<size_t>(width) * static_cast<size_t>(height));
+  std::vector<Sight> sights(grid.size());
+  for_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
-      grid.push_back(point_of(from, x, y));
-      const bool placed = place_in(f, cameras, from, grid.back());
-      sights.push_back(placed ? sight_of(f, grid.back()) : Sight::unknown);
-      seen += sights.back() == Sight::seen;
-      hidden += sights.back() == Sight::hidden || sights.back() == Sight::unknown;
+      const auto i = static_cast<size_t>(y * width + x);
+      grid[i] = point_of(from, x, y);
+      const bool placed = place_in(f, cameras, from, grid[i]);
+      sights[i] = placed ? sight_of(f, grid[i]) : Sight::unknown;
+      if (!placed) grid[i].depth = kNowhere;
     }
-  const auto known = static_cast<double>(grid.size()) - static_cast<double>(hidden);
-  if (static_cast<double>(seen) < kSameShot * known) return;
+  });
+  if (is_another_shot(sights)) return;
   set_edges(grid, width, height, shutter);
   LightChange light(f, from, grid);
   for (size_t i = 0; i < grid.size(); ++i)
     if (sights[i] == Sight::seen) light.add_seen(i);
+  for_rows(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      const auto i = static_cast<size_t>(y * width + x);
+      if (sights[i] == Sight::hidden) grid[i].light = light.at(i);
+    }
+  });
   for (size_t i = 0; i < grid.size(); ++i) {
     const int x = grid[i].pixel % width, y = grid[i].pixel / width;
     if (sights[i] != Sight::hidden || !is_usable(from, x, y)) continue;
     SurfacePoint p = grid[i];
     p.frame = static_cast<int>(index);
-    p.light = light.at(i);
     for (int away = std::abs(from.number - f.number); away > 0; --away) p.trust *= kTrustPerFrame;
     if (is_beside_nearer(from, x, y)) p.trust *= kTrustAtEdge;
     points.push_back(p);
   }
 }
 
+namespace {
+
+Rate way_of(const SurfacePoint& p, int step) { return step < 0 ? Rate{p.prev_x, p.prev_y} : Rate{p.next_x, p.next_y}; }
+
+/// The mean of the neighbour's pixels around the place of `p` in it that show the same surface, into `colour`. False
+/// when they are fewer than half of the place.
+bool sample_same_surface(const SequenceFrame& frame, const SequenceFrame& neighbour, int step, const SurfacePoint& p,
+                         std::vector<float>& colour) {
+  const Window w = neighbour.window;
+  const Rate way = way_of(p, step);
+  if (!(std::abs(way.x) + std::abs(way.y) < 1e6F)) return false;
+  const float from_x = p.x + static_cast<float>(frame.window.min_x - w.min_x), x = from_x + way.x;
+  const float from_y = p.y + static_cast<float>(frame.window.min_y - w.min_y), y = from_y + way.y;
+  const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+  float weight = 0;
+  std::fill(colour.begin(), colour.end(), 0.0F);
+  for (int j = std::max(y0, 0); j <= std::min(y0 + 1, w.height() - 1); ++j)
+    for (int i = std::max(x0, 0); i <= std::min(x0 + 1, w.width() - 1); ++i) {
+      const SurfacePoint q = point_of(neighbour, i, j);
+      const Rate back = way_of(q, -step);
+      const float off_x = q.x + back.x - from_x, off_y = q.y + back.y - from_y;
+      const bool same = std::abs(q.depth - p.depth) <= kOneSurface * p.depth &&
+                        off_x * off_x + off_y * off_y < kReturns_px * kReturns_px;
+      if (!same || !is_usable(neighbour, i, j)) continue;
+      const float share = (1 - std::abs(x - q.x)) * (1 - std::abs(y - q.y));
+      weight += share;
+      for (size_t c = 0; c < colour.size(); ++c) colour[c] += share * neighbour.channels[c](i, j);
+    }
+  for (float& value : colour) value /= std::max(weight, 1e-30F);
+  return weight >= 0.5F;
+}
+
+}  // namespace
+
 std::vector<Plane> channels_in(const SequenceFrame& frame, const SequenceFrame& neighbour, int step) {
   std::vector<Plane> out;
   for (const ConstPlaneView& plane : frame.channels) out.push_back(copy_of(plane));
-  const auto vector = [&](const SurfacePoint& p, int to) {
-    return to < 0 ? Rate{p.prev_x, p.prev_y} : Rate{p.next_x, p.next_y};
-  };
-  const Window w = neighbour.window;
-  std::vector<float> sum(out.size());
-  for (int y = 0; y < frame.window.height(); ++y)
-    for (int x = 0; x < frame.window.width(); ++x) {
-      const SurfacePoint p = point_of(frame, x, y);
-      const Rate way = vector(p, step);
-      if (!(std::abs(way.x) + std::abs(way.y) < 1e6F)) continue;
-      const float px = p.x + way.x + static_cast<float>(frame.window.min_x - w.min_x);
-      const float py = p.y + way.y + static_cast<float>(frame.window.min_y - w.min_y);
-      const int x0 = static_cast<int>(std::floor(px)), y0 = static_cast<int>(std::floor(py));
-      float weight = 0;
-      std::fill(sum.begin(), sum.end(), 0.0F);
-      for (int j = std::max(y0, 0); j <= std::min(y0 + 1, w.height() - 1); ++j)
-        for (int i = std::max(x0, 0); i <= std::min(x0 + 1, w.width() - 1); ++i) {
-          const SurfacePoint q = point_of(neighbour, i, j);
-          const Rate back = vector(q, -step);
-          const float off_x = q.x + back.x - (px - way.x), off_y = q.y + back.y - (py - way.y);
-          if (std::abs(q.depth - p.depth) > kOneSurface * p.depth ||
-              !(off_x * off_x + off_y * off_y < kReturns_px * kReturns_px) || !is_usable(neighbour, i, j))
-            continue;
-          const float share = (1 - std::abs(px - q.x)) * (1 - std::abs(py - q.y));
-          weight += share;
-          for (size_t c = 0; c < out.size(); ++c) sum[c] += share * neighbour.channels[c](i, j);
-        }
-      if (weight < 0.5F) continue;
-      for (size_t c = 0; c < out.size(); ++c) out[c](x, y) = sum[c] / weight;
-    }
+  for_rows(frame.window.height(), [&](int y) {
+    std::vector<float> colour(out.size());
+    for (int x = 0; x < frame.window.width(); ++x)
+      if (sample_same_surface(frame, neighbour, step, point_of(frame, x, y), colour))
+        for (size_t c = 0; c < out.size(); ++c) out[c](x, y) = colour[c];
+  });
   return out;
 }
 

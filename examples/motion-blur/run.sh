@@ -37,6 +37,7 @@ blur() {
 blur scalable-motion-blur --set motion_blur.max_radius_px=0
 blur guertin2014 --set motion_blur.max_radius_px=0
 blur gather-plus
+blur reconstruct
 
 echo
 echo "input frames        $out/in"
