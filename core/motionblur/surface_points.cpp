@@ -193,11 +193,12 @@ class LightChange {
   }
 
   /// The factor for point `i`, from the nearest seen pixels of like depth and motion, by the inverse square of the
-  /// distance; 1 where there are none.
+  /// distance; 1 where there are none. It makes nothing brighter than the brightest of them in f, or darker than the
+  /// darkest.
   float at(size_t i) const {
     const int width = from_.window.width(), height = from_.window.height();
     const int x = grid_[i].pixel % width, y = grid_[i].pixel / width;
-    float here = 0, there = 0;
+    float here = 0, there = 0, darkest = kMostLight, brightest = 0;
     int last = kSearch_px;
     for (int ring = 1; ring <= last; ++ring)
       for (int v = std::max(y - ring, 0); v <= std::min(y + ring, height - 1); ++v)
@@ -208,14 +209,20 @@ class LightChange {
           const float weight = 1 / static_cast<float>((u - x) * (u - x) + (v - y) * (v - y));
           here += weight * here_[j];
           there += weight * there_[j];
-          last = std::min(last, ring + ring / 2 + 1);
+          darkest = std::min(darkest, here_[j]);
+          brightest = std::max(brightest, here_[j]);
+          last = std::min(last, 2 * ring + 4);
         }
-    return there > 0 ? std::clamp(here / there, 1 / kMost, kMost) : 1.0F;
+    const float own = light_of(from_, x, y);
+    if (there <= 0 || own <= 0) return 1;
+    const float factor = here / there;
+    return factor > 1 ? std::min(factor, std::max(brightest / own, 1.0F))
+                      : std::max(factor, std::min(darkest / own, 1.0F));
   }
 
  private:
   static constexpr int kSearch_px = 32;
-  static constexpr float kMost = 16;
+  static constexpr float kMostLight = 1e30F;
 
   static bool is_like(const SurfacePoint& a, const SurfacePoint& b) {
     const Rate ra = rate_of(a), rb = rate_of(b);
