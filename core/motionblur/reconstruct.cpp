@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/motionblur/light_change.h"
 #include "core/motionblur/slice_tile.h"
 #include "core/parallel/rows.h"
 

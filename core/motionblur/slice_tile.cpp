@@ -9,7 +9,7 @@ namespace aftershade::motionblur {
 namespace {
 
 /// Fragments of one pixel and slice whose depths differ by a smaller share are of one surface.
-constexpr float kOneSurface = 0.03F;
+constexpr float kOneDepth = 0.03F;
 /// Coverage above which a slice of a pixel is full: the rest are cracks and rounding.
 constexpr float kFull = 0.5F;
 /// Surfaces covered by less say nothing about what is behind.
@@ -99,7 +99,7 @@ void SliceTile::composite(size_t pixel, Fragment* first, Fragment* last, float t
   for (Fragment* begin = first; begin < last && open > 1e-4F;) {
     Fragment* end = begin;
     float coverage = 0;
-    for (; end < last && end->depth <= begin->depth * (1 + kOneSurface); ++end) coverage += end->coverage;
+    for (; end < last && end->depth <= begin->depth * (1 + kOneDepth); ++end) coverage += end->coverage;
     const float alpha = open * std::min(coverage, 1.0F);
     add_surface(pixel, begin, end, alpha, t);
     open -= alpha;
@@ -139,12 +139,12 @@ void SliceTile::add_surface(size_t pixel, const Fragment* first, const Fragment*
   for (size_t c = 0; c < channels_; ++c) slice_[c] += share * surface_[c];
   if (alpha < kSpeck) return;
   target.nearest = std::min(target.nearest, depth);
-  if (depth > target.farthest * (1 + kOneSurface)) {
+  if (depth > target.farthest * (1 + kOneDepth)) {
     target.farthest = depth;
     target.behind = 0;
     std::fill_n(&behind_[pixel * channels_], channels_, 0.0F);
   }
-  if (depth < target.farthest * (1 - kOneSurface)) return;
+  if (depth < target.farthest * (1 - kOneDepth)) return;
   target.behind += alpha;
   for (size_t c = 0; c < channels_; ++c) behind_[pixel * channels_ + c] += share * surface_[c];
 }

@@ -5,52 +5,25 @@
 #include <array>
 #include <cmath>
 
+#include "core/motionblur/light_change.h"
 #include "core/parallel/rows.h"
 
 namespace aftershade::motionblur {
 
 namespace {
 
-/// Depths that differ by a smaller share may be of one surface ...
-constexpr float kOneSurface = 0.05F;
-/// ... if the shutter does not tear them further apart, in pixels.
+/// Pieces of one surface are not torn further apart by the shutter, in pixels.
 constexpr float kTorn_px = 1;
-/// A surface nearer by this share hides what is behind it.
-constexpr float kHides = 0.03F;
 /// What a farther neighbour saw counts for so much less where a nearer one saw it too ...
 constexpr float kTrustPerFrame = 0.125F;
 /// ... and so does, here, what lies beside a nearer surface, whose colour the pixel's filter has mixed into it.
 constexpr float kTrustAtEdge = 1e-3F;
 /// A vector this close to the camera's is of a surface that stands still.
 constexpr float kStanding_px = 0.25F;
-/// A vector that leads back this close to where it came from is of the same surface.
-constexpr float kReturns_px = 2;
 /// Depth of a point of which nobody knows where it is: it is like no other.
 constexpr float kNowhere = -1;
 /// Share of a neighbour that is found again below which it is of another shot (algorithms 13).
 constexpr double kSameShot = 0.4;
-
-bool is_usable(const SequenceFrame& frame, int x, int y) {
-  return std::all_of(frame.channels.begin(), frame.channels.end(),
-                     [&](ConstPlaneView plane) { return std::abs(plane(x, y)) < 1e30F; });
-}
-
-SurfacePoint point_of(const SequenceFrame& frame, int x, int y) {
-  const Motion& motion = *frame.motion;
-  SurfacePoint point{};
-  point.x = static_cast<float>(x);
-  point.y = static_cast<float>(y);
-  point.prev_x = motion.prev_x(x, y), point.prev_y = motion.prev_y(x, y);
-  point.next_x = motion.next_x(x, y), point.next_y = motion.next_y(x, y);
-  point.depth = finite_depth(frame.depth, x, y);
-  point.pixel = y * frame.window.width() + x;
-  return point;
-}
-
-struct Rate {
-  float x, y;
-};
-Rate rate_of(const SurfacePoint& p) { return {0.5F * (p.next_x - p.prev_x), 0.5F * (p.next_y - p.prev_y)}; }
 
 bool is_one_surface(const SurfacePoint& a, const SurfacePoint& b, Shutter shutter) {
   const Rate ra = rate_of(a), rb = rate_of(b);
@@ -165,83 +138,24 @@ bool is_another_shot(const std::vector<Sight>& sights) {
   return static_cast<double>(seen) < kSameShot * static_cast<double>(seen + contradicted);
 }
 
-/// Does one of the eight pixels around show something nearer?
-bool is_beside_nearer(const SequenceFrame& frame, int x, int y) {
-  const float nearer = finite_depth(frame.depth, x, y) * (1 - kHides);
-  for (int j = std::max(y - 1, 0); j <= std::min(y + 1, frame.window.height() - 1); ++j)
-    for (int i = std::max(x - 1, 0); i <= std::min(x + 1, frame.window.width() - 1); ++i)
-      if (finite_depth(frame.depth, i, j) < nearer) return true;
-  return false;
+}  // namespace
+
+bool is_usable(const SequenceFrame& frame, int x, int y) {
+  return std::all_of(frame.channels.begin(), frame.channels.end(),
+                     [&](ConstPlaneView plane) { return std::abs(plane(x, y)) < 1e30F; });
 }
 
-/// The light on a neighbour's surfaces, there and in f.
-class LightChange {
- public:
-  LightChange(const SequenceFrame& f, const SequenceFrame& from, const std::vector<SurfacePoint>& grid)
-      : f_(f), from_(from), grid_(grid), here_(grid.size()), there_(grid.size()) {}
-
-  /// Point `i` of the grid is seen in f as well. Its colour there is that of the nearest pixel.
-  void add_seen(size_t i) {
-    const SurfacePoint& p = grid_[i];
-    const int width = from_.window.width(), x = p.pixel % width, y = p.pixel / width;
-    const int fx = static_cast<int>(std::floor(p.x + 0.5F)), fy = static_cast<int>(std::floor(p.y + 0.5F));
-    if (is_beside_nearer(from_, x, y) || is_beside_nearer(f_, fx, fy) || !is_usable(from_, x, y) ||
-        !is_usable(f_, fx, fy))
-      return;
-    here_[i] = light_of(f_, fx, fy);
-    there_[i] = light_of(from_, x, y);
-  }
-
-  /// The factor for point `i`, from the nearest seen pixels of like depth and motion, by the inverse square of the
-  /// distance; 1 where there are none. It makes nothing brighter than the brightest of them in f, or darker than the
-  /// darkest.
-  float at(size_t i) const {
-    const int width = from_.window.width(), height = from_.window.height();
-    const int x = grid_[i].pixel % width, y = grid_[i].pixel / width;
-    float here = 0, there = 0, darkest = kMostLight, brightest = 0;
-    int last = kSearch_px;
-    for (int ring = 1; ring <= last; ++ring)
-      for (int v = std::max(y - ring, 0); v <= std::min(y + ring, height - 1); ++v)
-        for (int u = x - ring; u <= x + ring; u += std::abs(v - y) == ring ? 1 : 2 * ring) {
-          if (u < 0 || u >= width) continue;
-          const auto j = static_cast<size_t>(v * width + u);
-          if (there_[j] <= 0 || !is_like(grid_[i], grid_[j])) continue;
-          const float weight = 1 / static_cast<float>((u - x) * (u - x) + (v - y) * (v - y));
-          here += weight * here_[j];
-          there += weight * there_[j];
-          darkest = std::min(darkest, here_[j]);
-          brightest = std::max(brightest, here_[j]);
-          last = std::min(last, 2 * ring + 4);
-        }
-    const float own = light_of(from_, x, y);
-    if (there <= 0 || own <= 0) return 1;
-    const float factor = here / there;
-    return factor > 1 ? std::min(factor, std::max(brightest / own, 1.0F))
-                      : std::max(factor, std::min(darkest / own, 1.0F));
-  }
-
- private:
-  static constexpr int kSearch_px = 32;
-  static constexpr float kMostLight = 1e30F;
-
-  static bool is_like(const SurfacePoint& a, const SurfacePoint& b) {
-    const Rate ra = rate_of(a), rb = rate_of(b);
-    return std::abs(a.depth - b.depth) < 2 * kOneSurface * a.depth &&
-           std::abs(ra.x - rb.x) + std::abs(ra.y - rb.y) < kTorn_px;
-  }
-  static float light_of(const SequenceFrame& frame, int x, int y) {
-    float sum = 0;
-    for (size_t c = 0; c < frame.channels.size(); ++c)
-      if (static_cast<int>(c) != frame.alpha) sum += std::max(frame.channels[c](x, y), 0.0F);
-    return sum;
-  }
-
-  const SequenceFrame &f_, &from_;
-  const std::vector<SurfacePoint>& grid_;
-  std::vector<float> here_, there_;
-};
-
-}  // namespace
+SurfacePoint point_of(const SequenceFrame& frame, int x, int y) {
+  const Motion& motion = *frame.motion;
+  SurfacePoint point{};
+  point.x = static_cast<float>(x);
+  point.y = static_cast<float>(y);
+  point.prev_x = motion.prev_x(x, y), point.prev_y = motion.prev_y(x, y);
+  point.next_x = motion.next_x(x, y), point.next_y = motion.next_y(x, y);
+  point.depth = finite_depth(frame.depth, x, y);
+  point.pixel = y * frame.window.width() + x;
+  return point;
+}
 
 void add_points(const SequenceFrame& frame, Shutter shutter, std::vector<SurfacePoint>& points) {
   const int width = frame.window.width(), height = frame.window.height();
@@ -272,9 +186,12 @@ void add_hidden_points(const std::vector<SequenceFrame>& sequence, size_t index,
   });
   if (is_another_shot(sights)) return;
   set_edges(grid, width, height, shutter);
-  LightChange light(f, from, grid);
-  for (size_t i = 0; i < grid.size(); ++i)
-    if (sights[i] == Sight::seen) light.add_seen(i);
+  LightChange light(from, grid);
+  for (size_t i = 0; i < grid.size(); ++i) {
+    const SurfacePoint& p = grid[i];
+    const int x = static_cast<int>(std::floor(p.x + 0.5F)), y = static_cast<int>(std::floor(p.y + 0.5F));
+    if (sights[i] == Sight::seen && is_usable(f, x, y) && !is_beside_nearer(f, x, y)) light.set(i, light_of(f, x, y));
+  }
   for_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       const auto i = static_cast<size_t>(y * width + x);
@@ -290,52 +207,6 @@ void add_hidden_points(const std::vector<SequenceFrame>& sequence, size_t index,
     if (is_beside_nearer(from, x, y)) p.trust *= kTrustAtEdge;
     points.push_back(p);
   }
-}
-
-namespace {
-
-Rate way_of(const SurfacePoint& p, int step) { return step < 0 ? Rate{p.prev_x, p.prev_y} : Rate{p.next_x, p.next_y}; }
-
-/// The mean of the neighbour's pixels around the place of `p` in it that show the same surface, into `colour`. False
-/// when they are fewer than half of the place.
-bool sample_same_surface(const SequenceFrame& frame, const SequenceFrame& neighbour, int step, const SurfacePoint& p,
-                         std::vector<float>& colour) {
-  const Window w = neighbour.window;
-  const Rate way = way_of(p, step);
-  if (!(std::abs(way.x) + std::abs(way.y) < 1e6F)) return false;
-  const float from_x = p.x + static_cast<float>(frame.window.min_x - w.min_x), x = from_x + way.x;
-  const float from_y = p.y + static_cast<float>(frame.window.min_y - w.min_y), y = from_y + way.y;
-  const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
-  float weight = 0;
-  std::fill(colour.begin(), colour.end(), 0.0F);
-  for (int j = std::max(y0, 0); j <= std::min(y0 + 1, w.height() - 1); ++j)
-    for (int i = std::max(x0, 0); i <= std::min(x0 + 1, w.width() - 1); ++i) {
-      const SurfacePoint q = point_of(neighbour, i, j);
-      const Rate back = way_of(q, -step);
-      const float off_x = q.x + back.x - from_x, off_y = q.y + back.y - from_y;
-      const bool same = std::abs(q.depth - p.depth) <= kOneSurface * p.depth &&
-                        off_x * off_x + off_y * off_y < kReturns_px * kReturns_px;
-      if (!same || !is_usable(neighbour, i, j)) continue;
-      const float share = (1 - std::abs(x - q.x)) * (1 - std::abs(y - q.y));
-      weight += share;
-      for (size_t c = 0; c < colour.size(); ++c) colour[c] += share * neighbour.channels[c](i, j);
-    }
-  for (float& value : colour) value /= std::max(weight, 1e-30F);
-  return weight >= 0.5F;
-}
-
-}  // namespace
-
-std::vector<Plane> channels_in(const SequenceFrame& frame, const SequenceFrame& neighbour, int step) {
-  std::vector<Plane> out;
-  for (const ConstPlaneView& plane : frame.channels) out.push_back(copy_of(plane));
-  for_rows(frame.window.height(), [&](int y) {
-    std::vector<float> colour(out.size());
-    for (int x = 0; x < frame.window.width(); ++x)
-      if (sample_same_surface(frame, neighbour, step, point_of(frame, x, y), colour))
-        for (size_t c = 0; c < out.size(); ++c) out[c](x, y) = colour[c];
-  });
-  return out;
 }
 
 }  // namespace aftershade::motionblur

@@ -51,10 +51,6 @@ void add_points(const SequenceFrame& frame, Shutter shutter, std::vector<Surface
 void add_hidden_points(const std::vector<SequenceFrame>& sequence, size_t index, Shutter shutter,
                        std::vector<SurfacePoint>& points);
 
-/// The same surface's channels in a neighbour, at the pixels of `frame`: bilinear over pixels of like depth whose
-/// vector leads back; the frame's own where there are none. `step` is -1 or 1, the neighbour's place.
-std::vector<Plane> channels_in(const SequenceFrame& frame, const SequenceFrame& neighbour, int step);
-
 /// Depth as comparisons want it.
 inline float finite_depth(ConstPlaneView depth, int x, int y) {
   constexpr float kBackground = 1e30F;
@@ -62,5 +58,22 @@ inline float finite_depth(ConstPlaneView depth, int x, int y) {
   const float z = depth(x, y);
   return z > 0 && z < kBackground ? z : kBackground;
 }
+
+/// Depths that differ by a smaller share may be of one surface.
+inline constexpr float kOneSurface = 0.05F;
+/// A surface nearer by this share hides what is behind it.
+inline constexpr float kHides = 0.03F;
+
+/// All channels of the pixel are finite and below 1e30.
+bool is_usable(const SequenceFrame& frame, int x, int y);
+
+/// What the pixel shows, in its own frame's coordinates, without edges.
+SurfacePoint point_of(const SequenceFrame& frame, int x, int y);
+
+/// Pixels per frame, of the mean of both vectors.
+struct Rate {
+  float x, y;
+};
+inline Rate rate_of(const SurfacePoint& p) { return {0.5F * (p.next_x - p.prev_x), 0.5F * (p.next_y - p.prev_y)}; }
 
 }  // namespace aftershade::motionblur
