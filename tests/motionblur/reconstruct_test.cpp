@@ -305,44 +305,6 @@ TEST(Reconstruct, WhatNothingCrossesKeepsItsBits) {
   EXPECT_GT(changed, 48 * 19);
 }
 
-TEST(Reconstruct, ANanStaysWhereItIs) {
-  for (const float bad : {kNan, kInf, -kInf, std::numeric_limits<float>::max()}) {
-    MovingScene scene = make_scene(kLayered, layered, 3);
-    scene.channels[1](30, 20) = bad;
-    const std::vector<Plane> out = blurred({}, scene);
-    for (size_t c = 0; c < 3; ++c)
-      for (int y = 0; y < 44; ++y)
-        for (int x = 0; x < 72; ++x)
-          if (x == 30 && y == 20)
-            EXPECT_EQ(std::memcmp(&out[c].row(y)[x], &scene.channels[c].row(y)[x], sizeof(float)), 0);
-          else
-            EXPECT_LE(std::abs(out[c](x, y)), 1.0001F);
-  }
-}
-
-TEST(Reconstruct, HolesInTheDepthAreBackground) {
-  MovingScene scene = make_scene(kLayered, layered);
-  std::vector<Plane> expected;
-  for (const float hole : {kInf, kNan, 0.0F, -1.0F}) {
-    for (int y = 0; y < 44; ++y)
-      for (int x = 0; x < 72; ++x)
-        if (layered(x, y).depth == 4) scene.depth(x, y) = hole;
-    std::vector<Plane> out = blurred({}, scene);
-    if (!expected.empty()) {
-      EXPECT_TRUE(same_bits(out[0], expected[0]));
-    }
-    expected = std::move(out);
-  }
-}
-
-TEST(Reconstruct, DoesNotDependOnTheUnitOfLength) {
-  MovingScene scene = make_scene(kLayered, layered);
-  const std::vector<Plane> metres = blurred({}, scene);
-  for (int y = 0; y < 44; ++y)
-    for (int x = 0; x < 72; ++x) scene.depth(x, y) *= 1024;
-  EXPECT_TRUE(same_bits(blurred({}, scene)[0], metres[0]));
-}
-
 TEST(Reconstruct, DoesNotDependOnThreads) {
   const MovingScene now = board(0), after = board(1);
   const auto run = [&] {
@@ -353,40 +315,6 @@ TEST(Reconstruct, DoesNotDependOnThreads) {
   const Plane one = run();
   set_thread_count(0);
   EXPECT_TRUE(same_bits(many, one));
-}
-
-TEST(Reconstruct, DoesNotDependOnTheDataWindow) {
-  const auto surface = [](int x, int y) { return layered(x, y); };
-  const std::vector<Plane> small = blurred({}, make_scene({-45, -37, 100, 90}, surface));
-  const std::vector<Plane> large = blurred({}, make_scene({-61, -70, 133, 110}, surface));
-  for (int y = 0; y < 44; ++y)
-    for (int x = 0; x < 72; ++x) EXPECT_EQ(small[0](x + 45, y + 37), large[0](x + 61, y + 70));
-}
-
-TEST(Reconstruct, NothingDarkensAtBorders) {
-  MovingScene scene = make_scene(kLayered, layered);
-  for (int y = 0; y < 44; ++y)
-    for (int x = 0; x < 72; ++x) scene.channels[0](x, y) = 0.7F;
-  EXPECT_TRUE(same_bits(blurred({}, scene)[0], scene.channels[0]));
-}
-
-TEST(ReconstructEnergy, OfOneMovingLayerStays) {
-  constexpr int kColumns = 31, kRows = 17, kMargin = 24;
-  const Window window{0, 0, 4 * kColumns + 2 * kMargin - 1, 4 * kRows + 2 * kMargin - 1};
-  MovingScene scene = make_scene(window, [](int, int) { return Surface{3, -53.2F, 28.4F, 53.2F, -28.4F}; });
-  for (int y = 0; y < window.height(); ++y)
-    for (int x = 0; x < window.width(); ++x)
-      scene.channels[0](x, y) = x % kColumns == 5 && y % kRows == 3 ? 10.0F : 0.01F;
-  const std::vector<Plane> out = blurred({}, scene);
-  double before = 0, after = 0, brightest = 0;
-  for (int y = kMargin; y < kMargin + 4 * kRows; ++y)
-    for (int x = kMargin; x < kMargin + 4 * kColumns; ++x) {
-      before += scene.channels[0](x, y);
-      after += out[0](x, y);
-      brightest = std::max(brightest, double{out[0](x, y)});
-    }
-  EXPECT_LT(brightest, 1.5) << "the lights are spread";
-  EXPECT_NEAR(after / before, 1, 1e-4);
 }
 
 }  // namespace
