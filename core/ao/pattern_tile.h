@@ -1,9 +1,25 @@
-#pragma once
+#if defined(AFTERSHADE_CORE_AO_PATTERN_TILE_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AFTERSHADE_CORE_AO_PATTERN_TILE_H
+#undef AFTERSHADE_CORE_AO_PATTERN_TILE_H
+#else
+#define AFTERSHADE_CORE_AO_PATTERN_TILE_H
+#endif
 #include "core/simd/lanes.h"
 
-namespace aftershade::ao {
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::ao::HWY_NAMESPACE {
 
 /// Index into a 4x4 pattern (row y, column x) by absolute texel coordinates.
-inline lanes::Int tile_cell(lanes::Int x, lanes::Int y) { return ((y & 3) << 2) + (x & 3); }
+inline lanes::HWY_NAMESPACE::Int tile_cell(lanes::HWY_NAMESPACE::Int x, lanes::HWY_NAMESPACE::Int y) {
+  return ((y & 3) << 2) + (x & 3);
+}
 
-}  // namespace aftershade::ao
+}  // namespace aftershade::ao::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_TARGET == HWY_SCALAR
+namespace aftershade::ao {
+using namespace N_SCALAR;
+}
+#endif
+#endif

@@ -1,3 +1,7 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/ao/scalable_ao.cpp"  // this file, compiled once a SIMD target
+#include <hwy/foreach_target.h>
+
 #include "core/ao/scalable_ao.h"
 
 #include <algorithm>
@@ -9,6 +13,52 @@
 #include "core/math/sampling.h"
 #include "core/parallel/rows.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::ao::HWY_NAMESPACE {
+
+/// A mirrored pattern repeats after half a turn.
+std::array<float, 16> rotations(TapPattern pattern) {
+  std::array<float, 16> turns = kBayer4x4;
+  if (pattern == TapPattern::mirrored)
+    for (float& t : turns) t *= 0.5F;
+  return turns;
+}
+
+DepthLevels depth_levels(const filter::DepthPyramid& pyramid, bool mips) {
+  const int count = mips ? std::min(pyramid.levels(), kDepthLevels) : 1;
+  const auto level = [&](int m) { return Samples(pyramid.level(std::min(m, count - 1))); };
+  return {{level(0), level(1), level(2), level(3), level(4), level(5)}, count, pyramid.origin_x(), pyramid.origin_y()};
+}
+
+Plane one_pass(const ScalableAoParams& params, const filter::Surface& surface, const filter::DepthPyramid& pyramid,
+               const filter::SampleGrid& grid, float turns) {
+  const auto taps = params.pattern == TapPattern::mirrored ? mirrored_taps(params.taps) : spiral_taps(params.taps);
+  const float clamp_px = filter::scaled_px(params.max_radius_px, params.reference_height_px, surface.display_height);
+  Plane out(grid.width(), grid.height(), 1.0F);
+  for_rows(out.height(), [&](int y) {
+    scalable_ao_row({.grid = GridSamples(grid),
+                     .normals = NormalSamples(surface),
+                     .lens = Lens(surface.projection),
+                     .depth = depth_levels(pyramid, params.depth_mips),
+                     .taps = taps,
+                     .params = params,
+                     .radius_px_x = params.radius_m * surface.projection.fx,
+                     .radius_px_y = params.radius_m * surface.projection.fy,
+                     .max_radius_px = params.max_radius_px > 0 ? clamp_px : std::numeric_limits<float>::infinity(),
+                     .noise_turns = turns,
+                     .rotation_turns = rotations(params.pattern),
+                     .texel_x = (surface.origin_x + grid.origin_x) / grid.step,
+                     .texel_y = (surface.origin_y + grid.origin_y) / grid.step,
+                     .out = out.row(y)},
+                    y);
+  });
+  return out;
+}
+
+}  // namespace aftershade::ao::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace aftershade::ao {
 
 const params::Table& ScalableAoParams::table() {
@@ -52,13 +102,7 @@ const params::Table& ScalableAoParams::table() {
 
 namespace {
 
-/// A mirrored pattern repeats after half a turn.
-std::array<float, 16> rotations(TapPattern pattern) {
-  std::array<float, 16> turns = kBayer4x4;
-  if (pattern == TapPattern::mirrored)
-    for (float& t : turns) t *= 0.5F;
-  return turns;
-}
+HWY_EXPORT(one_pass);
 
 /// Successive multiples of the golden ratio fill the circle evenly, whatever the number of passes and frames.
 float noise_turns(const ScalableAoParams& params, int frame_number, int pass) {
@@ -67,44 +111,13 @@ float noise_turns(const ScalableAoParams& params, int frame_number, int pass) {
   return static_cast<float>(turns - std::floor(turns));
 }
 
-DepthLevels depth_levels(const filter::DepthPyramid& pyramid, bool mips) {
-  const int count = mips ? std::min(pyramid.levels(), kDepthLevels) : 1;
-  const auto level = [&](int m) { return Samples(pyramid.level(std::min(m, count - 1))); };
-  return {{level(0), level(1), level(2), level(3), level(4), level(5)}, count, pyramid.origin_x(), pyramid.origin_y()};
-}
-
-Plane one_pass(const ScalableAoParams& params, const filter::Surface& surface, const filter::DepthPyramid& pyramid,
-               const filter::SampleGrid& grid, float turns) {
-  const auto taps = params.pattern == TapPattern::mirrored ? mirrored_taps(params.taps) : spiral_taps(params.taps);
-  const float clamp_px = filter::scaled_px(params.max_radius_px, params.reference_height_px, surface.display_height);
-  Plane out(grid.width(), grid.height(), 1.0F);
-  for_rows(out.height(), [&](int y) {
-    scalable_ao_row({.grid = filter::GridSamples(grid),
-                     .normals = filter::NormalSamples(surface),
-                     .lens = filter::Lens(surface.projection),
-                     .depth = depth_levels(pyramid, params.depth_mips),
-                     .taps = taps,
-                     .params = params,
-                     .radius_px_x = params.radius_m * surface.projection.fx,
-                     .radius_px_y = params.radius_m * surface.projection.fy,
-                     .max_radius_px = params.max_radius_px > 0 ? clamp_px : std::numeric_limits<float>::infinity(),
-                     .noise_turns = turns,
-                     .rotation_turns = rotations(params.pattern),
-                     .texel_x = (surface.origin_x + grid.origin_x) / grid.step,
-                     .texel_y = (surface.origin_y + grid.origin_y) / grid.step,
-                     .out = out.row(y)},
-                    y);
-  });
-  return out;
-}
-
 }  // namespace
 
 Plane scalable_ao(const ScalableAoParams& params, const filter::Surface& surface, const filter::DepthPyramid& pyramid,
                   const filter::SampleGrid& grid, int frame_number) {
-  Plane out = one_pass(params, surface, pyramid, grid, noise_turns(params, frame_number, 0));
+  Plane out = HWY_DYNAMIC_DISPATCH(one_pass)(params, surface, pyramid, grid, noise_turns(params, frame_number, 0));
   for (int pass = 1; pass < params.passes; ++pass) {
-    const Plane next = one_pass(params, surface, pyramid, grid, noise_turns(params, frame_number, pass));
+    const Plane next = HWY_DYNAMIC_DISPATCH(one_pass)(params, surface, pyramid, grid, noise_turns(params, frame_number, pass));
     for_rows(out.height(), [&](int y) {
       for (int x = 0; x < out.width(); ++x) out(x, y) += next(x, y);
     });
@@ -117,3 +130,4 @@ Plane scalable_ao(const ScalableAoParams& params, const filter::Surface& surface
 }
 
 }  // namespace aftershade::ao
+#endif

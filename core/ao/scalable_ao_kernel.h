@@ -1,4 +1,9 @@
-#pragma once
+#if defined(AFTERSHADE_CORE_AO_SCALABLE_AO_KERNEL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AFTERSHADE_CORE_AO_SCALABLE_AO_KERNEL_H
+#undef AFTERSHADE_CORE_AO_SCALABLE_AO_KERNEL_H
+#else
+#define AFTERSHADE_CORE_AO_SCALABLE_AO_KERNEL_H
+#endif
 #include <array>
 #include <span>
 
@@ -7,11 +12,11 @@
 #include "core/ao/tap_pattern.h"
 #include "core/filter/lane_geometry.h"
 
-namespace aftershade::ao {
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::ao::HWY_NAMESPACE {
 
-using namespace lanes;
-using filter::Point;
-using filter::Samples;
+using namespace lanes::HWY_NAMESPACE;
+using namespace filter::HWY_NAMESPACE;
 
 inline constexpr int kLogMaxOffset = 3;    ///< SAO's LOG_MAX_OFFSET: taps nearer than 16 px read level 0
 inline constexpr float kMinTapPx = 0.75F;  ///< SAO: a tap never falls on the pixel itself
@@ -24,9 +29,9 @@ struct DepthLevels {
 };
 
 struct ScalableAoRow {
-  filter::GridSamples grid;
-  filter::NormalSamples normals;
-  filter::Lens lens;
+  GridSamples grid;
+  NormalSamples normals;
+  Lens lens;
   DepthLevels depth;
   std::span<const Tap> taps;
   const ScalableAoParams& params;
@@ -42,7 +47,7 @@ struct ScalableAoRow {
 /// depth of one pixel below it, found by walking down z_{m+1}(x,y) = z_m(2x + (y&1), 2y + (x&1)); the point is
 /// unprojected from there, so that a plane stays a plane. (SAO unprojects from the tap's own pixel and leans on the
 /// bias.)
-inline Point tap_point(const DepthLevels& depth, const filter::Lens& lens, Int x, Int y, Int m) {
+inline Point tap_point(const DepthLevels& depth, const Lens& lens, Int x, Int y, Int m) {
   Float z = depth.levels[0](x, y);
   Int px = x, py = y;
   for (int level = 1; level < depth.count; ++level) {
@@ -61,7 +66,7 @@ inline Point tap_point(const DepthLevels& depth, const filter::Lens& lens, Int x
     px = select(at_level, tx - Int(depth.origin_x), px);
     py = select(at_level, ty - Int(depth.origin_y), py);
   }
-  return filter::unproject(lens, to_float(px), to_float(py), z);
+  return unproject(lens, to_float(px), to_float(py), z);
 }
 
 /// Of d = |v| / r. Linear: "Falloff Function" slide; the others: SAO's factors without their units (algorithms 4.3, B
@@ -118,9 +123,9 @@ inline void scalable_ao_row(const ScalableAoRow& row, int y) {
   for (int x0 = 0; x0 < row.grid.depth.width; x0 += kLanes) {
     const Int x = row.grid.depth.clamp_x(iota(x0)), iy = y;
     const Float z = row.grid.depth(x, iy);
-    const Mask here = filter::is_surface(z);
+    const Mask here = is_surface(z);
     const Int px = to_int(row.grid.x_of(x, iy)), py = to_int(row.grid.y_of(x, iy));
-    const Point centre = filter::unproject(row.lens, to_float(px), to_float(py), z);
+    const Point centre = unproject(row.lens, to_float(px), to_float(py), z);
     const Point normal = row.normals(px, py);
     const ProjectedRadius radius = projected_radius(row, select(here, z, 1.0F));
     const Float longest = max(radius.x_px, radius.y_px);
@@ -138,7 +143,7 @@ inline void scalable_ao_row(const ScalableAoRow& row, int y) {
       const Mask in_frame = image.contains(tx, ty);
       const Point point = tap_point(row.depth, row.lens, image.clamp_x(tx), image.clamp_y(ty), level);
       const Float occlusion = tap_occlusion(point - centre, normal, radius.m, row.params);
-      sum += select(in_frame & filter::is_surface(point.z), occlusion, 0.0F);
+      sum += select(in_frame & is_surface(point.z), occlusion, 0.0F);
       inside += select(in_frame, distance_falloff(row.params.falloff, tap.radius), 0.0F);
     }
     // "Total Occlusion" slide: AO_T = (2 scale / S sum AO_s)^2. Taps outside the image are made up for (ours), since to
@@ -150,4 +155,6 @@ inline void scalable_ao_row(const ScalableAoRow& row, int y) {
   }
 }
 
-}  // namespace aftershade::ao
+}  // namespace aftershade::ao::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

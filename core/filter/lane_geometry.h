@@ -1,4 +1,11 @@
-#pragma once
+// What the kernels of core/filter and core/ao share: points, surfaces and grid texels in lanes. No length in metres is
+// compared with a constant, so a scene scaled by a power of two gives the same bits.
+#if defined(AFTERSHADE_CORE_FILTER_LANE_GEOMETRY_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AFTERSHADE_CORE_FILTER_LANE_GEOMETRY_H
+#undef AFTERSHADE_CORE_FILTER_LANE_GEOMETRY_H
+#else
+#define AFTERSHADE_CORE_FILTER_LANE_GEOMETRY_H
+#endif
 #include <algorithm>
 
 #include "core/camera/camera.h"
@@ -6,11 +13,10 @@
 #include "core/simd/lanes.h"
 #include "core/simd/math.h"
 
-/// What the kernels of core/filter and core/ao share: points, surfaces and grid texels in lanes. No length in metres is
-/// compared with a constant, so a scene scaled by a power of two gives the same bits.
-namespace aftershade::filter {
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::filter::HWY_NAMESPACE {
 
-using namespace lanes;
+using namespace lanes::HWY_NAMESPACE;
 
 struct Point {
   Float x, y, z;
@@ -89,4 +95,12 @@ inline Float plane_distance(Point v, Point normal) {
   return abs(select(dot(normal, normal) > 0.0F, dot(v, normal), v.z));
 }
 
-}  // namespace aftershade::filter
+}  // namespace aftershade::filter::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_TARGET == HWY_SCALAR
+namespace aftershade::filter {
+using namespace N_SCALAR;
+}
+#endif
+#endif

@@ -1,100 +1,44 @@
-#pragma once
-#include <cmath>
-#include <cstdint>
-#include <cstring>
+// The lane layer that kernels are written in: Float, Int and Mask hold kLanes values each. A kernel walks a row in steps
+// of kLanes and may load and store up to kLanes - 1 values past the last pixel: planes are padded for it
+// (core/image/plane.h).
+//
+// Kernels are compiled once a SIMD target, each time in a namespace of the target's name (HWY_NAMESPACE), and the best
+// that the machine has is chosen at run time: see Highway's documentation of foreach_target.h for the frame around such
+// a file, and core/ao/scalable_ao.cpp for a short example. One target has a single lane (N_SCALAR): the twin that
+// defines what all others must give, bit for bit. Therefore: IEEE single precision, no fused multiply-add, no
+// approximate reciprocals.
+#if defined(AFTERSHADE_CORE_SIMD_LANES_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AFTERSHADE_CORE_SIMD_LANES_H
+#undef AFTERSHADE_CORE_SIMD_LANES_H
+#else
+#define AFTERSHADE_CORE_SIMD_LANES_H
+#endif
+#include <hwy/highway.h>
+#if HWY_TARGET == HWY_SCALAR
+#include "core/simd/one_lane.h"
+#else
+#include "core/simd/many_lanes.h"
+#endif
 
-/// The lane layer that kernels are written in: Float, Int and Mask hold kLanes values each. This is the one-lane twin,
-/// the definition of what every wider target must reproduce bit for bit: IEEE single precision, no fused multiply-add,
-/// no approximate reciprocals. A kernel walks a row in steps of kLanes and may load and store up to kLanes - 1 values
-/// past the last pixel: planes are padded for it (core/image/plane.h).
-namespace aftershade::lanes {
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::lanes::HWY_NAMESPACE {
 
-inline constexpr int kLanes = 1;
-
-struct Mask {
-  bool v;
-};
-struct Int {
-  int32_t v;
-  Int() = default;
-  constexpr Int(int32_t value) : v(value) {}
-};
-struct Float {
-  float v;
-  Float() = default;
-  constexpr Float(float value) : v(value) {}
-};
-
-inline Mask operator&(Mask a, Mask b) { return {a.v && b.v}; }
-inline Mask operator|(Mask a, Mask b) { return {a.v || b.v}; }
-inline Mask operator!(Mask a) { return {!a.v}; }
-inline bool any(Mask m) { return m.v; }
-inline bool all(Mask m) { return m.v; }
-
-inline Float operator+(Float a, Float b) { return a.v + b.v; }
-inline Float operator-(Float a, Float b) { return a.v - b.v; }
-inline Float operator*(Float a, Float b) { return a.v * b.v; }
-inline Float operator/(Float a, Float b) { return a.v / b.v; }
-inline Float operator-(Float a) { return -a.v; }
 inline Float& operator+=(Float& a, Float b) { return a = a + b; }
 inline Float& operator-=(Float& a, Float b) { return a = a - b; }
 inline Float& operator*=(Float& a, Float b) { return a = a * b; }
-inline Mask operator<(Float a, Float b) { return {a.v < b.v}; }
-inline Mask operator<=(Float a, Float b) { return {a.v <= b.v}; }
-inline Mask operator>(Float a, Float b) { return {a.v > b.v}; }
-inline Mask operator>=(Float a, Float b) { return {a.v >= b.v}; }
-inline Mask operator==(Float a, Float b) { return {a.v == b.v}; }
-
-inline Int operator+(Int a, Int b) { return a.v + b.v; }
-inline Int operator-(Int a, Int b) { return a.v - b.v; }
-inline Int operator*(Int a, Int b) { return a.v * b.v; }
-inline Int operator&(Int a, Int b) { return a.v & b.v; }
-inline Int operator|(Int a, Int b) { return a.v | b.v; }
-inline Int operator^(Int a, Int b) { return a.v ^ b.v; }
-inline Int operator<<(Int a, int bits) { return static_cast<int32_t>(static_cast<uint32_t>(a.v) << bits); }
-inline Int operator>>(Int a, int bits) { return a.v >> bits; }  ///< arithmetic
-inline Mask operator<(Int a, Int b) { return {a.v < b.v}; }
-inline Mask operator>=(Int a, Int b) { return {a.v >= b.v}; }
-inline Mask operator==(Int a, Int b) { return {a.v == b.v}; }
-
-inline Float select(Mask m, Float yes, Float no) { return m.v ? yes : no; }
-inline Int select(Mask m, Int yes, Int no) { return m.v ? yes : no; }
-/// b when a is NaN, as SSE does: min(a, b) = a < b ? a : b.
-inline Float min(Float a, Float b) { return a.v < b.v ? a : b; }
-inline Float max(Float a, Float b) { return a.v > b.v ? a : b; }
-inline Int min(Int a, Int b) { return a.v < b.v ? a : b; }
-inline Int max(Int a, Int b) { return a.v > b.v ? a : b; }
 inline Float clamp(Float x, Float low, Float high) { return min(max(x, low), high); }
 inline Int clamp(Int x, Int low, Int high) { return min(max(x, low), high); }
 /// Clamp to [0, 1], the shaders' saturate.
 inline Float sat(Float x) { return clamp(x, 0.0F, 1.0F); }
-inline Float abs(Float x) { return std::fabs(x.v); }
-inline Float sqrt(Float x) { return std::sqrt(x.v); }
-inline Float floor(Float x) { return std::floor(x.v); }
-/// Nearest integer, ties to even.
-inline Float round(Float x) { return std::nearbyintf(x.v); }
-/// Toward zero; |x| < 2^31.
-inline Int to_int(Float x) { return static_cast<int32_t>(x.v); }
-inline Float to_float(Int x) { return static_cast<float>(x.v); }
 /// Is it neither infinite nor NaN?
 inline Mask is_finite(Float x) { return abs(x) <= 3.402823466e38F; }
-/// The same 32 bits, read as the other type.
-inline Int bits_of(Float x) {
-  Int out;
-  std::memcpy(&out.v, &x.v, sizeof out.v);
-  return out;
-}
-inline Float float_of_bits(Int x) {
-  Float out;
-  std::memcpy(&out.v, &x.v, sizeof out.v);
-  return out;
-}
 
-/// first, first + 1, ... one a lane.
-inline Int iota(int first) { return first; }
-inline Float load(const float* p) { return *p; }
-inline void store(float* p, Float value) { *p = value.v; }
-/// base[index], lane by lane; every index must be inside the array.
-inline Float gather(const float* base, Int index) { return base[index.v]; }
+}  // namespace aftershade::lanes::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
 
-}  // namespace aftershade::lanes
+#if HWY_TARGET == HWY_SCALAR
+namespace aftershade::lanes {
+using namespace N_SCALAR;
+}
+#endif
+#endif

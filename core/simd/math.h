@@ -1,9 +1,15 @@
-#pragma once
+// Functions of pixel code that libm must not provide (its results differ between machines): short polynomials in plain
+// multiplies and adds, with domain and largest error stated; tests/simd measures them.
+#if defined(AFTERSHADE_CORE_SIMD_MATH_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AFTERSHADE_CORE_SIMD_MATH_H
+#undef AFTERSHADE_CORE_SIMD_MATH_H
+#else
+#define AFTERSHADE_CORE_SIMD_MATH_H
+#endif
 #include "core/simd/lanes.h"
 
-/// Functions of pixel code that libm must not provide (its results differ between machines): short polynomials in
-/// plain multiplies and adds, with domain and largest error stated; tests/simd measures them.
-namespace aftershade::lanes {
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::lanes::HWY_NAMESPACE {
 
 /// Nearest integer, ties to even, for |x| < 2^22: adding 1.5 * 2^23 leaves no bits for a fraction.
 inline Float round_small(Float x) { return (x + 12582912.0F) - 12582912.0F; }
@@ -73,4 +79,6 @@ inline Float log2(Float x) {
   return to_float(n) + s * p;
 }
 
-}  // namespace aftershade::lanes
+}  // namespace aftershade::lanes::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif
