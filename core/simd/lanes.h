@@ -1,5 +1,5 @@
-// The lane layer that kernels are written in: Float, Int and Mask hold kLanes values each. A kernel walks a row in steps
-// of kLanes and may load and store up to kLanes - 1 values past the last pixel: planes are padded for it
+// The lane layer that kernels are written in: Float, Int and Mask hold kLanes values each. A kernel walks a row in
+// steps of kLanes and may load and store up to kLanes - 1 values past the last pixel: planes are padded for it
 // (core/image/plane.h).
 //
 // Kernels are compiled once a SIMD target, each time in a namespace of the target's name (HWY_NAMESPACE), and the best

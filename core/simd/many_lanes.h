@@ -1,5 +1,5 @@
-// The operations of core/simd/one_lane.h, which defines them, on as many lanes as the target has, at most 16. Included by
-// core/simd/lanes.h, whose include guard holds for this file too.
+// The operations of core/simd/one_lane.h, which defines them, on as many lanes as the target has, at most 16. Included
+// by core/simd/lanes.h, whose include guard holds for this file too.
 HWY_BEFORE_NAMESPACE();
 namespace aftershade::lanes::HWY_NAMESPACE {
 
@@ -55,9 +55,7 @@ HWY_INLINE Mask operator>=(Int a, Int b) { return !(a < b); }
 HWY_INLINE Mask operator==(Int a, Int b) { return {hn::RebindMask(FloatTag(), hn::Eq(a.v, b.v))}; }
 
 HWY_INLINE Float select(Mask m, Float yes, Float no) { return hn::IfThenElse(m.v, yes.v, no.v); }
-HWY_INLINE Int select(Mask m, Int yes, Int no) {
-  return hn::IfThenElse(hn::RebindMask(IntTag(), m.v), yes.v, no.v);
-}
+HWY_INLINE Int select(Mask m, Int yes, Int no) { return hn::IfThenElse(hn::RebindMask(IntTag(), m.v), yes.v, no.v); }
 #if HWY_ARCH_X86  // MINPS and MAXPS choose the second when they cannot tell
 HWY_INLINE Float min(Float a, Float b) { return hn::Min(a.v, b.v); }
 HWY_INLINE Float max(Float a, Float b) { return hn::Max(a.v, b.v); }

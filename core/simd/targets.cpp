@@ -44,7 +44,8 @@ void force_target(const std::string& name) {
     hwy::GetChosenTarget().DeInit();
     return;
   }
-  throw Error(ErrorCode::usage, cat("this machine has no SIMD target \"", name, "\""), "one of " + join(targets(), ", "));
+  throw Error(ErrorCode::usage, cat("this machine has no SIMD target \"", name, "\""),
+              "one of " + join(targets(), ", "));
 }
 
 }  // namespace aftershade::lanes

@@ -13,14 +13,15 @@
 namespace aftershade::tests {
 namespace {
 
-/// Where and how two sequences differ first, bit by bit; "" when they do not.
+/// Where and how two sequences differ first, bit by bit, NaN being like any NaN; "" when they do not.
 std::string first_difference(const MemorySink& a, const MemorySink& b) {
   for (const auto& [number, channels] : a.planes)
     for (const auto& [name, plane] : channels)
       for (int y = 0; y < plane.height(); ++y)
         for (int x = 0; x < plane.width(); ++x) {
           const float one = plane(x, y), other = b.planes.at(number).at(name)(x, y);
-          if (std::bit_cast<uint32_t>(one) != std::bit_cast<uint32_t>(other))
+          const bool same = std::bit_cast<uint32_t>(one) == std::bit_cast<uint32_t>(other);
+          if (!same && !(std::isnan(one) && std::isnan(other)))
             return cat("frame ", number, " channel ", name, " (", x, ", ", y, "): ", one, " and ", other);
         }
   return a.planes.size() == b.planes.size() ? "" : "numbers of frames differ";
