@@ -1,4 +1,8 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/motionblur/dilation.cpp"  // this file, compiled once a SIMD target
 #include "core/motionblur/dilation.h"
+
+#include <hwy/foreach_target.h>
 
 #include <algorithm>
 #include <array>
@@ -7,9 +11,34 @@
 #include "core/motionblur/dilation_kernel.h"
 #include "core/parallel/rows.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::motionblur::HWY_NAMESPACE {
+
+/// The velocities that cross the tile at an offset from their own.
+HalfVelocity crossing(const HalfVelocity& velocity, int tile, Window window, int ox, int oy) {
+  const TileGrid grid(tile, window);
+  const int width = window.width(), height = window.height();
+  const auto inside = [&](int absolute) { return static_cast<float>((absolute % tile + tile) % tile) + 0.5F; };
+  Plane inside_x(width, 1);
+  for (int x = 0; x < width; ++x) inside_x(x, 0) = inside(window.min_x + x);
+  HalfVelocity out{Plane(width, height), Plane(width, height)};
+  for_rows(height, [&](int y) {
+    const CrossingRow row{inside_x.row(0), inside(window.min_y + y), static_cast<float>(tile), static_cast<float>(ox),
+                          static_cast<float>(oy)};
+    crossing_row(row, velocity.x.row(y), velocity.y.row(y), width, out.x.row(y), out.y.row(y));
+  });
+  return out;
+}
+
+}  // namespace aftershade::motionblur::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace aftershade::motionblur {
 
 namespace {
+
+HWY_EXPORT(crossing);
 
 /// The neighbours in reading order; [4] is the tile itself.
 constexpr int kAround = 9;
@@ -45,28 +74,13 @@ HalfVelocity longest_of(int columns, int rows, const Candidate& candidate) {
   return out;
 }
 
-/// The velocities that cross the tile at an offset from their own.
-HalfVelocity crossing(const HalfVelocity& velocity, int tile, Window window, int ox, int oy) {
-  const TileGrid grid(tile, window);
-  const int width = window.width(), height = window.height();
-  const auto inside = [&](int absolute) { return static_cast<float>((absolute % tile + tile) % tile) + 0.5F; };
-  Plane inside_x(width, 1);
-  for (int x = 0; x < width; ++x) inside_x(x, 0) = inside(window.min_x + x);
-  HalfVelocity out{Plane(width, height), Plane(width, height)};
-  for_rows(height, [&](int y) {
-    const CrossingRow row{inside_x.row(0), inside(window.min_y + y), static_cast<float>(tile), static_cast<float>(ox),
-                          static_cast<float>(oy)};
-    crossing_row(row, velocity.x.row(y), velocity.y.row(y), width, out.x.row(y), out.y.row(y));
-  });
-  return out;
-}
-
 HalfVelocity line_max(const HalfVelocity& velocity, const HalfVelocity& tiles, int tile, Window window) {
   std::array<HalfVelocity, kAround> toward;  ///< [i]: of what lies at offset i from the tile that it crosses
   for (int i = 0; i < kAround; ++i)
     toward[static_cast<size_t>(i)] =
         i == 4 ? HalfVelocity{copy_of(tiles.x), copy_of(tiles.y)}
-               : tile_max(crossing(velocity, tile, window, -offset_x(i), -offset_y(i)), tile, window);
+               : tile_max(HWY_DYNAMIC_DISPATCH(crossing)(velocity, tile, window, -offset_x(i), -offset_y(i)), tile,
+                          window);
   return longest_of(tiles.x.width(), tiles.x.height(), [&](int i, int x, int y) {
     const HalfVelocity& from = toward[static_cast<size_t>(i)];
     return std::pair{from.x(x, y), from.y(x, y)};
@@ -85,3 +99,4 @@ HalfVelocity dilated(Dilation rule, const HalfVelocity& velocity, const HalfVelo
 }
 
 }  // namespace aftershade::motionblur
+#endif

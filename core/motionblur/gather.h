@@ -1,13 +1,11 @@
 #pragma once
 #include <algorithm>
-#include <functional>
 #include <span>
 
 #include "core/image/window.h"
-#include "core/motionblur/gather_kernel.h"
 #include "core/motionblur/gather_source.h"
 
-/// The frame around a gathering blur's row kernel.
+/// What gathering blurs are given, and what they read of it.
 namespace aftershade::motionblur {
 
 struct GatherInput {
@@ -37,15 +35,5 @@ int radius_px(const Params& params, const HalfVelocity& velocity, int display_he
   return params.max_radius_px > 0 ? radius_at(params.max_radius_px, params.reference_height_px, display_height)
                                   : radius_at(longest_px(velocity), 1, 1);
 }
-
-/// Does any of these velocities reach farther than half a pixel?
-bool any_moves(const HalfVelocity& velocity);
-
-/// One row of one group of channels: `target[c]` is row y of channel c and holds the source's values.
-using GatherRow = std::function<void(const GatherPlanes&, float* const* target, int y)>;
-
-/// Calls `row` for all rows, over threads, for four channels at a time: channels[i] becomes what `row` makes of
-/// source.colour[i].
-void gather_rows(const GatherSource& source, std::span<Plane* const> channels, const GatherRow& row);
 
 }  // namespace aftershade::motionblur

@@ -1,25 +1,31 @@
-#pragma once
+// What the rows of gathering blurs share: reading a tap, the tests of McGuire et al. 2012 (algorithms 2.2), the
+// weighted sum.
+#if defined(AFTERSHADE_CORE_MOTIONBLUR_GATHER_KERNEL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AFTERSHADE_CORE_MOTIONBLUR_GATHER_KERNEL_H
+#undef AFTERSHADE_CORE_MOTIONBLUR_GATHER_KERNEL_H
+#else
+#define AFTERSHADE_CORE_MOTIONBLUR_GATHER_KERNEL_H
+#endif
+#include <algorithm>
+
 #include "core/motionblur/gather_source.h"
-#include "core/simd/lanes.h"
+#include "core/parallel/rows.h"
+#include "core/simd/records.h"
 
-/// What the rows of gathering blurs share: reading a tap, the tests of McGuire et al. 2012 (algorithms 2.2), the
-/// weighted sum.
-namespace aftershade::motionblur {
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::motionblur::HWY_NAMESPACE {
 
-/// In norm(v) = v / (|v| + 1e-5) (algorithms 2.1).
-inline constexpr float kNoDivisionByZero = 1e-5F;
+using namespace lanes::HWY_NAMESPACE;
 
-/// Planes of one size, `stride` floats from row to row.
-struct GatherPlanes {
-  static constexpr int kChannels = 4;
-  int width, height, stride;
-  const float *speed, *depth;  ///< as GatherSource gives them
-  int channels;                ///< 1 to kChannels
-  const float* source[kChannels];
+/// The records around row y.
+struct GatherRow {
+  int width, height, y;
+  int stride;                              ///< floats from row to row
+  int record_floats;                       ///< and from pixel to pixel
+  const float* records;                    ///< of pixel (0, y)
+  int channels;                            ///< 1 to GatherRecord::kChannels
+  float* target[GatherRecord::kChannels];  ///< row y of each channel; holds the source's values
 };
-
-namespace gathering {
-using namespace lanes;
 
 struct Vector {
   Float x, y;
@@ -43,47 +49,78 @@ struct Order {
 };
 inline Order soft_order(Float by) { return {sat(1.0F - by), sat(1.0F + by)}; }
 
-/// The nearest pixel to a place; not usable outside the image, nor where GatherSource excludes a pixel.
+/// A pixel's record.
 struct Tap {
-  Int index;
   Mask usable;
-  Float speed, depth;
+  Float speed, depth;  ///< the speed is at least half a pixel, usable or not
+  Vector direction;    ///< where records have one
+  Quad colour;
 };
-inline Tap tap_at(const GatherPlanes& p, Int x, Int y, Vector offset) {
-  const Int sx = x + to_int(round(offset.x)), sy = y + to_int(round(offset.y));
-  const Mask inside = (sx >= Int(0)) & (sx < Int(p.width)) & (sy >= Int(0)) & (sy < Int(p.height));
-  const Int index = clamp(sy, 0, p.height - 1) * Int(p.stride) + clamp(sx, 0, p.width - 1);
-  const Float speed = gather(p.speed, index);
-  return {index, inside & (speed > 0.0F), max(speed, kLeastRadius_px), gather(p.depth, index)};
+inline Tap tap_of(const GatherRow& row, Int index, Mask inside) {
+  const Quad q = load_records(row.records, index + Int(GatherRecord::kSpeed));
+  return {inside & (q.a > 0.0F), max(q.a, kLeastRadius_px), q.b, {q.c, q.d}, load_records(row.records, index)};
+}
+/// The pixel itself.
+inline Tap centre_at(const GatherRow& row, int x) {
+  return tap_of(row, min(iota(x), Int(row.width - 1)) * Int(row.record_floats), Float(0.0F) <= 0.0F);
+}
+/// The nearest pixel to a place; not usable outside the image, nor where GatherSource excludes a pixel.
+inline Tap tap_at(const GatherRow& row, int x, Vector offset) {
+  const Int sx = iota(x) + to_int(round(offset.x)), sy = Int(row.y) + to_int(round(offset.y));
+  const Int cx = clamp(sx, 0, row.width - 1), cy = clamp(sy, 0, row.height - 1);
+  return tap_of(row, (cy - Int(row.y)) * Int(row.stride) + cx * Int(row.record_floats), (sx == cx) & (sy == cy));
 }
 
 /// What one group of pixels has gathered so far. Colours are summed as differences from the centre's: where they agree
 /// the result is the centre's value to the bit (an alpha of 1 stays 1).
 struct Gathered {
-  Float centre[GatherPlanes::kChannels];
-  Float difference[GatherPlanes::kChannels];
+  Quad centre, difference;
   Float weight;
 };
-inline Gathered gathered(const GatherPlanes& p, int index, Float weight) {
-  Gathered sum;
-  sum.weight = weight;
-  for (int c = 0; c < p.channels; ++c) {
-    sum.centre[c] = load(p.source[c] + index);
-    sum.difference[c] = 0.0F;
-  }
-  return sum;
-}
-inline void add(const GatherPlanes& p, const Tap& tap, Float weight, Gathered& sum) {
+inline Gathered gathered(const Tap& centre, Float weight) { return {centre.colour, {0.0F, 0.0F, 0.0F, 0.0F}, weight}; }
+inline void add(const Tap& tap, Float weight, Gathered& sum) {
   sum.weight += select(tap.usable, weight, 0.0F);
-  for (int c = 0; c < p.channels; ++c) {
-    const Float difference = gather(p.source[c], tap.index) - sum.centre[c];
-    sum.difference[c] += select(tap.usable, weight * difference, 0.0F);
-  }
+  const auto add_one = [&](Float value, Float centre, Float& difference) {
+    difference += select(tap.usable, weight * (value - centre), 0.0F);
+  };
+  add_one(tap.colour.a, sum.centre.a, sum.difference.a);
+  add_one(tap.colour.b, sum.centre.b, sum.difference.b);
+  add_one(tap.colour.c, sum.centre.c, sum.difference.c);
+  add_one(tap.colour.d, sum.centre.d, sum.difference.d);
 }
-inline void store_mean(const GatherPlanes& p, const Gathered& sum, Mask where, float* const* target, int x) {
-  for (int c = 0; c < p.channels; ++c)
-    store(target[c] + x, select(where, sum.centre[c] + sum.difference[c] / sum.weight, sum.centre[c]));
+inline void store_mean(const GatherRow& row, const Gathered& sum, Mask where, int x) {
+  const auto store_one = [&](int c, Float centre, Float difference) {
+    if (c >= row.channels) return;
+    float* to = row.target[c] + x;
+    store(to, select(where, centre + difference / sum.weight, load(to)));
+  };
+  store_one(0, sum.centre.a, sum.difference.a);
+  store_one(1, sum.centre.b, sum.difference.b);
+  store_one(2, sum.centre.c, sum.difference.c);
+  store_one(3, sum.centre.d, sum.difference.d);
 }
 
-}  // namespace gathering
-}  // namespace aftershade::motionblur
+/// Calls `blur(row, columns)` for the moving part of all rows, over threads, for four channels at a time: channels[i]
+/// becomes what it makes of the source's.
+template <class Blur>
+void gather_rows(const GatherSource& source, const MovingTiles& tiles, std::span<Plane* const> channels,
+                 const Blur& blur) {
+  constexpr auto kGroup = static_cast<size_t>(GatherRecord::kChannels);
+  for (size_t group = 0; group < source.records.size(); ++group) {
+    const size_t first = group * kGroup, count = std::min(kGroup, channels.size() - first);
+    const Plane& records = source.records[group];
+    for_rows(source.height, [&](int y) {
+      const Columns columns = tiles.blurred(y);
+      if (columns.empty()) return;
+      GatherRow row{
+          source.width,   source.height,           y, static_cast<int>(records.view().stride), source.record_floats,
+          records.row(y), static_cast<int>(count), {}};
+      for (size_t c = 0; c < count; ++c) row.target[c] = channels[first + c]->row(y);
+      blur(row, columns);
+    });
+  }
+}
+
+}  // namespace aftershade::motionblur::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

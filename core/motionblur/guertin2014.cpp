@@ -1,12 +1,37 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/motionblur/guertin2014.cpp"  // this file, compiled once a SIMD target
 #include "core/motionblur/guertin2014.h"
+
+#include <hwy/foreach_target.h>
 
 #include "core/motionblur/dilation.h"
 #include "core/motionblur/guertin2014_kernel.h"
 #include "core/motionblur/guertin_tiles.h"
 #include "core/motionblur/jitter.h"
-#include "core/parallel/rows.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::motionblur::HWY_NAMESPACE {
+
+void blur_rows(const Guertin2014Params& params, const GatherSource& source, const MovingTiles& moving,
+               const TileChoice& tiles, const Plane& jitter, std::span<Plane* const> channels) {
+  const Guertin2014Kernel kernel{params.taps, params.tap_jitter,
+                                 static_cast<float>(params.taps) / params.centre_divisor, 1.0F / params.slow_px};
+  gather_rows(source, moving, channels, [&](const GatherRow& row, Columns columns) {
+    const Guertin2014Row choice{tiles.velocity.x.row(row.y), tiles.velocity.y.row(row.y), tiles.variance.row(row.y),
+                                jitter.row(row.y)};
+    guertin2014_row(kernel, choice, row, columns);
+  });
+}
+
+}  // namespace aftershade::motionblur::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace aftershade::motionblur {
+
+namespace {
+HWY_EXPORT(blur_rows);
+}
 
 const params::Table& Guertin2014Params::table() {
   using P = Guertin2014Params;
@@ -35,37 +60,19 @@ const params::Table& Guertin2014Params::table() {
   return table;
 }
 
-namespace {
-
-HalfVelocity directions_of(const HalfVelocity& velocity) {
-  const int width = velocity.x.width(), height = velocity.x.height();
-  HalfVelocity out{Plane(width, height), Plane(width, height)};
-  for_rows(height,
-           [&](int y) { directions_row(velocity.x.row(y), velocity.y.row(y), width, out.x.row(y), out.y.row(y)); });
-  return out;
-}
-
-}  // namespace
-
 void guertin2014_blur(const Guertin2014Params& params, const GatherInput& input, std::span<Plane* const> channels) {
   const int radius = radius_px(params, *input.velocity, input.display_height);
   const HalfVelocity neighbours = dilated(Dilation::directional, *input.velocity,
                                           tile_max(*input.velocity, radius, input.window), radius, input.window);
-  if (!any_moves(neighbours)) return;
+  const MovingTiles moving(neighbours, TileGrid(radius, input.window));
+  if (!moving.any()) return;
   const bool even = params.split == TapSplit::even;
   const Plane share = even ? Plane(neighbours.x.width(), neighbours.x.height(), 0.5F) : direction_variance(neighbours);
   const TileChoice tiles = choose_tiles(neighbours, share, radius, input.window, 0.25F * params.tile_jitter);
-  const Plane jitter = even_jitter(input.window);
-  const HalfVelocity directions = directions_of(*input.velocity);
-  const Guertin2014Kernel kernel{
-      params.taps,           params.tap_jitter,   static_cast<float>(params.taps) / params.centre_divisor,
-      1.0F / params.slow_px, directions.x.row(0), directions.y.row(0)};
-  gather_rows(gather_source(*input.velocity, input.depth, channels), channels,
-              [&](const GatherPlanes& planes, float* const* target, int y) {
-                const Guertin2014Row row{tiles.velocity.x.row(y), tiles.velocity.y.row(y), tiles.variance.row(y),
-                                         jitter.row(y)};
-                guertin2014_row(kernel, planes, row, target, y);
-              });
+  HWY_DYNAMIC_DISPATCH(blur_rows)
+  (params, gather_source(*input.velocity, input.depth, channels, moving, true), moving, tiles,
+   even_jitter(input.window), channels);
 }
 
 }  // namespace aftershade::motionblur
+#endif

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/math/sampling.h"
-#include "core/motionblur/gather_kernel.h"
+#include "core/motionblur/gather_source.h"
 #include "core/parallel/rows.h"
 
 namespace aftershade::motionblur {

@@ -18,6 +18,9 @@ HalfVelocity half_velocity(ConstPlaneView prev_x, ConstPlaneView prev_y, ConstPl
 
 /// The same of motion in which all vectors are known.
 HalfVelocity half_velocity(const Motion& motion, float shutter_frames, float max_radius);
+/// The same of what motion_of() gives, without keeping that.
+HalfVelocity half_velocity(const MotionParams& params, const MotionSources& sources, float shutter_frames,
+                           float max_radius, WithoutVector* without = nullptr);
 
 /// As two channels of 8 bits give it back that hold -max_radius to max_radius as 0 to 1 (slide "Render Velocity").
 HalfVelocity at_8_bits(const HalfVelocity& velocity, float max_radius);

@@ -1,10 +1,36 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/motionblur/mcguire2012.cpp"  // this file, compiled once a SIMD target
 #include "core/motionblur/mcguire2012.h"
+
+#include <hwy/foreach_target.h>
 
 #include "core/motionblur/jitter.h"
 #include "core/motionblur/mcguire2012_kernel.h"
 #include "core/motionblur/tile_max.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::motionblur::HWY_NAMESPACE {
+
+/// `wide`: the velocities v_N of each row of tiles.
+void blur_rows(const Mcguire2012Params& params, const GatherSource& source, const MovingTiles& tiles,
+               const TileGrid& grid, const HalfVelocity& wide, const Plane& jitter, std::span<Plane* const> channels) {
+  gather_rows(source, tiles, channels, [&](const GatherRow& row, Columns columns) {
+    const int tile_row = grid.row_of(row.y);
+    mcguire2012_row({params.taps | 1, 1.0F / params.soft_depth_extent_m, wide.x.row(tile_row), wide.y.row(tile_row),
+                     jitter.row(row.y)},
+                    row, columns);
+  });
+}
+
+}  // namespace aftershade::motionblur::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace aftershade::motionblur {
+
+namespace {
+HWY_EXPORT(blur_rows);
+}
 
 const params::Table& Mcguire2012Params::table() {
   using P = Mcguire2012Params;
@@ -29,15 +55,12 @@ void mcguire2012_blur(const Mcguire2012Params& params, const GatherInput& input,
   const int radius = radius_px(params, *input.velocity, input.display_height);
   const TileGrid grid(radius, input.window);
   const HalfVelocity neighbours = neighbour_max(tile_max(*input.velocity, radius, input.window));
-  if (!any_moves(neighbours)) return;
-  const HalfVelocity wide = widened(neighbours, grid);
-  const Plane jitter = random_jitter(input.window);
-  const Mcguire2012Kernel kernel{params.taps | 1, 1.0F / params.soft_depth_extent_m};
-  gather_rows(gather_source(*input.velocity, input.depth, channels), channels,
-              [&](const GatherPlanes& planes, float* const* target, int y) {
-                const int tile_row = grid.row_of(y);
-                mcguire2012_row(kernel, planes, {wide.x.row(tile_row), wide.y.row(tile_row), jitter.row(y)}, target, y);
-              });
+  const MovingTiles tiles(neighbours, grid);
+  if (!tiles.any()) return;
+  HWY_DYNAMIC_DISPATCH(blur_rows)
+  (params, gather_source(*input.velocity, input.depth, channels, tiles), tiles, grid, widened(neighbours, grid),
+   random_jitter(input.window), channels);
 }
 
 }  // namespace aftershade::motionblur
+#endif

@@ -1,40 +1,23 @@
-#pragma once
-#include "core/filter/static_motion.h"
-#include "core/motionblur/motion.h"
-#include "core/simd/lanes.h"
+// The motion of one row of pixels.
+#if defined(AFTERSHADE_CORE_MOTIONBLUR_MOTION_KERNEL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AFTERSHADE_CORE_MOTIONBLUR_MOTION_KERNEL_H
+#undef AFTERSHADE_CORE_MOTIONBLUR_MOTION_KERNEL_H
+#else
+#define AFTERSHADE_CORE_MOTIONBLUR_MOTION_KERNEL_H
+#endif
+#include "core/filter/static_motion_lanes.h"
+#include "core/motionblur/motion_rows.h"
 
-/// The motion of one row of pixels.
-namespace aftershade::motionblur {
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::motionblur::HWY_NAMESPACE {
 
-/// One row of vectors; null pointers: unknown everywhere.
-struct VelocityRow {
-  const float *x, *y;
-};
-
-struct MotionKernel {
-  float camera_share, object_share;
-  bool split;                  ///< do the shares differ from 1?
-  float min_speed, max_speed;  ///< px per frame; max_speed may be infinite
-  float added_x, added_y, added_zoom;
-  float centre_x;  ///< of the display window, from the first pixel's left edge
-};
-
-struct MotionRow {
-  VelocityRow prev, next;
-  const filter::StaticMotion *before, *after;  ///< null: unknown camera
-  const float* depth;                          ///< read if a camera is known
-  VelocityRow added;
-  const float* mask;  ///< null: 1 everywhere
-  int min_x, width;
-  float from_centre_y;  ///< of the row's pixel centres, from the display window's
-  float *prev_x, *prev_y, *next_x, *next_y;
-};
-
-namespace detail {
-using namespace lanes;
+using namespace lanes::HWY_NAMESPACE;
+using namespace filter::HWY_NAMESPACE;
 
 /// A displacement as long as this is a sentinel, not a motion; its square still is a float.
 inline constexpr float kSentinel_px = 1e15F;
+
+inline Mask nowhere() { return Float(0.0F) > Float(0.0F); }
 
 struct Displacement {
   Float x, y;
@@ -46,7 +29,7 @@ inline Displacement displacement_of(Float x, Float y) {
   return {select(known, x, 0.0F), select(known, y, 0.0F), known};
 }
 inline Displacement load_displacement(VelocityRow row, int i) {
-  if (row.x == nullptr || row.y == nullptr) return {0.0F, 0.0F, Float(0.0F) > Float(0.0F)};
+  if (row.x == nullptr || row.y == nullptr) return {0.0F, 0.0F, nowhere()};
   return displacement_of(load(row.x + i), load(row.y + i));
 }
 inline Displacement first_known(Displacement a, Displacement b) {
@@ -62,16 +45,15 @@ inline BothWays completed(BothWays d) {
   return {first_known(d.prev, reversed(d.next)), first_known(d.next, reversed(d.prev))};
 }
 
-inline Displacement camera_displacement(const filter::StaticMotion* camera, Float x, Float z) {
-  if (camera == nullptr) return load_displacement({nullptr, nullptr}, 0);
-  const filter::Point moved = filter::select(filter::is_surface(z), filter::static_displacement(*camera, x, z),
-                                             filter::background_displacement(*camera, x));
+inline Displacement camera_displacement(const std::optional<filter::StaticMotion>& camera, Float x, Float z) {
+  if (!camera) return {0.0F, 0.0F, nowhere()};
+  const Point moved = select(is_surface(z), static_displacement(*camera, x, z), background_displacement(*camera, x));
   return displacement_of(moved.x, moved.y);
 }
 
 /// Renderers write 0 where they have no vector, in the background above all (Cycles does).
 inline Displacement unless_background(Displacement d, Float z) {
-  return {d.x, d.y, d.known & (filter::is_surface(z) | (abs(d.x) + abs(d.y) > 0.0F))};
+  return {d.x, d.y, d.known & (is_surface(z) | (abs(d.x) + abs(d.y) > 0.0F))};
 }
 
 /// camera share * camera + object share * (all - camera).
@@ -100,38 +82,60 @@ inline Float limit_factor(const MotionKernel& k, const BothWays& d) {
   return select(speed < k.min_speed, 0.0F, shortened);
 }
 
-}  // namespace detail
+/// What was found of pixels without a vector.
+struct Lone {
+  Mask by_camera, still;
+};
+inline WithoutVector without_vector(const Lone& lone) { return {any(lone.by_camera), any(lone.still)}; }
 
-inline WithoutVector motion_row(const MotionKernel& k, const MotionRow& row) {
-  using namespace lanes;
-  using namespace detail;
-  WithoutVector without;
-  for (int i = 0; i < row.width; i += kLanes) {
-    BothWays d{load_displacement(row.prev, i), load_displacement(row.next, i)};
-    BothWays camera = d;
-    if (row.before != nullptr || row.after != nullptr) {
-      const Float x = to_float(iota(row.min_x + i)) + 0.5F, z = load(row.depth + i);
-      d = completed({unless_background(d.prev, z), unless_background(d.next, z)});
-      camera = completed({camera_displacement(row.before, x, z), camera_displacement(row.after, x, z)});
-    } else {
-      d = completed(d);
-      camera.prev = camera.next = load_displacement({nullptr, nullptr}, 0);
-    }
-    const Mask lone = (!d.prev.known) & (iota(i) < Int(row.width));
-    without.by_camera = without.by_camera || any(lone & camera.prev.known);
-    without.still = without.still || any(lone & (!camera.prev.known));
-    d = {first_known(d.prev, camera.prev), first_known(d.next, camera.next)};
-    if (k.split) d = {shared_out(k, d.prev, camera.prev), shared_out(k, d.next, camera.next)};
-    const Displacement added = added_motion(k, row, i);
-    d = {{d.prev.x - added.x, d.prev.y - added.y, d.prev.known},
-         {d.next.x + added.x, d.next.y + added.y, d.next.known}};
-    const Float factor = limit_factor(k, d);
-    store(row.prev_x + i, d.prev.x * factor);
-    store(row.prev_y + i, d.prev.y * factor);
-    store(row.next_x + i, d.next.x * factor);
-    store(row.next_y + i, d.next.y * factor);
+/// The motion of pixels i, i + 1, ...
+inline BothWays motion_at(const MotionKernel& k, const MotionRow& row, int i, Lone& lone) {
+  BothWays d{load_displacement(row.prev, i), load_displacement(row.next, i)};
+  const Displacement unknown{0.0F, 0.0F, nowhere()};
+  BothWays camera{unknown, unknown};
+  if (row.before || row.after) {
+    const Float x = to_float(iota(row.min_x + i)) + 0.5F, z = load(row.depth + i);
+    d = completed({unless_background(d.prev, z), unless_background(d.next, z)});
+    camera = completed({camera_displacement(row.before, x, z), camera_displacement(row.after, x, z)});
+  } else {
+    d = completed(d);
   }
-  return without;
+  const Mask alone = (!d.prev.known) & (iota(i) < Int(row.width));
+  lone.by_camera = lone.by_camera | (alone & camera.prev.known);
+  lone.still = lone.still | (alone & !camera.prev.known);
+  d = {first_known(d.prev, camera.prev), first_known(d.next, camera.next)};
+  if (k.split) d = {shared_out(k, d.prev, camera.prev), shared_out(k, d.next, camera.next)};
+  const Displacement added = added_motion(k, row, i);
+  d = {{d.prev.x - added.x, d.prev.y - added.y, d.prev.known}, {d.next.x + added.x, d.next.y + added.y, d.next.known}};
+  const Float factor = limit_factor(k, d);
+  return {{d.prev.x * factor, d.prev.y * factor, d.prev.known}, {d.next.x * factor, d.next.y * factor, d.next.known}};
 }
 
-}  // namespace aftershade::motionblur
+/// What motion_at() gives for a whole row.
+struct MotionOut {
+  float *prev_x, *prev_y, *next_x, *next_y;
+};
+inline WithoutVector motion_row(const MotionKernel& k, const MotionRow& row, const MotionOut& out) {
+  Lone lone{nowhere(), nowhere()};
+  for (int i = 0; i < row.width; i += kLanes) {
+    const BothWays d = motion_at(k, row, i, lone);
+    store(out.prev_x + i, d.prev.x);
+    store(out.prev_y + i, d.prev.y);
+    store(out.next_x + i, d.next.x);
+    store(out.next_y + i, d.next.y);
+  }
+  return without_vector(lone);
+}
+
+/// The length of longest_displacement_px() to within a few roundings. `back`, `ahead`: >= 0, frames.
+inline Float length_at(Path path, float back, float ahead, Float px, Float py, Float nx, Float ny) {
+  const auto length = [](Float x, Float y) { return sqrt(x * x + y * y); };
+  if (path == Path::separate) return max(back * length(px, py), ahead * length(nx, ny));
+  const float longest = back > ahead ? back : ahead;
+  const Float mean = 0.5F * longest * length(nx - px, ny - py);
+  return path == Path::straight ? mean : mean + 0.5F * longest * longest * length(nx + px, ny + py);
+}
+
+}  // namespace aftershade::motionblur::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

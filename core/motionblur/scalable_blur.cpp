@@ -1,10 +1,33 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/motionblur/scalable_blur.cpp"  // this file, compiled once a SIMD target
 #include "core/motionblur/scalable_blur.h"
+
+#include <hwy/foreach_target.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/motionblur/scalable_blur_kernel.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::motionblur::HWY_NAMESPACE {
+
+VelocityRow row_of(const HalfVelocity& velocity, int y) { return {velocity.x.row(y), velocity.y.row(y)}; }
+
+void blur_rows(const ScalableBlurKernel& kernel, const GatherSource& source, const BlurTiles& tiles,
+               std::span<Plane* const> channels) {
+  gather_rows(source, tiles.moving, channels, [&](const GatherRow& row, Columns columns) {
+    const int tile_row = tiles.grid.row_of(row.y);
+    scalable_blur_row(
+        kernel, row,
+        {row_of(tiles.velocity, row.y), row_of(tiles.neighbourhood, tile_row), row_of(tiles.own, tile_row)}, columns);
+  });
+}
+
+}  // namespace aftershade::motionblur::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace aftershade::motionblur {
 
 const params::Table& ScalableBlurParams::table() {
@@ -62,6 +85,8 @@ int radius_px(const ScalableBlurParams& params, const HalfVelocity& velocity, in
 
 namespace {
 
+HWY_EXPORT(blur_rows);
+
 ScalableBlurKernel kernel_of(const ScalableBlurParams& params, Window window) {
   return {window.min_x,
           window.min_y,
@@ -77,24 +102,15 @@ ScalableBlurKernel kernel_of(const ScalableBlurParams& params, Window window) {
           params.centre_weight};
 }
 
-VelocityRow row_of(const HalfVelocity& velocity, int y) { return {velocity.x.row(y), velocity.y.row(y)}; }
-
 void blur(const ScalableBlurParams& params, const GatherInput& input, const HalfVelocity& velocity, int radius,
           std::span<Plane* const> channels, HalfVelocity* tiles) {
   const TileGrid grid(radius, input.window);
   const HalfVelocity own = tile_max(velocity, radius, input.window);
   HalfVelocity neighbours = dilated(params.dilation, velocity, own, radius, input.window);
-  if (any_moves(neighbours)) {
-    const HalfVelocity wide = widened(neighbours, grid), wide_own = widened(own, grid);
-    const ScalableBlurKernel kernel = kernel_of(params, input.window);
-    gather_rows(gather_source(velocity, input.depth, channels), channels,
-                [&](const GatherPlanes& planes, float* const* target, int y) {
-                  const int tile_row = grid.row_of(y);
-                  scalable_blur_row(kernel, planes,
-                                    {row_of(velocity, y), row_of(wide, tile_row), row_of(wide_own, tile_row)}, target,
-                                    y);
-                });
-  }
+  const MovingTiles moving(neighbours, grid);
+  if (moving.any()) HWY_DYNAMIC_DISPATCH(blur_rows)
+  (kernel_of(params, input.window), gather_source(velocity, input.depth, channels, moving),
+   {grid, moving, velocity, widened(neighbours, grid), widened(own, grid)}, channels);
   if (tiles != nullptr) *tiles = std::move(neighbours);
 }
 
@@ -110,3 +126,4 @@ void scalable_motion_blur(const ScalableBlurParams& params, const GatherInput& i
 }
 
 }  // namespace aftershade::motionblur
+#endif

@@ -1,33 +1,25 @@
-#pragma once
+// The gather of Vicarious Visions' motion blur (seed 004), one row.
+#if defined(AFTERSHADE_CORE_MOTIONBLUR_SCALABLE_BLUR_KERNEL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AFTERSHADE_CORE_MOTIONBLUR_SCALABLE_BLUR_KERNEL_H
+#undef AFTERSHADE_CORE_MOTIONBLUR_SCALABLE_BLUR_KERNEL_H
+#else
+#define AFTERSHADE_CORE_MOTIONBLUR_SCALABLE_BLUR_KERNEL_H
+#endif
 #include "core/math/sampling.h"
 #include "core/motionblur/gather_kernel.h"
-#include "core/motionblur/motion_kernel.h"
-#include "core/motionblur/scalable_blur.h"
+#include "core/motionblur/motion_rows.h"
+#include "core/motionblur/scalable_blur_params.h"
 
-/// The gather of Vicarious Visions' motion blur (seed 004), one row.
-namespace aftershade::motionblur {
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::motionblur::HWY_NAMESPACE {
 
 /// Below it the direction of a velocity says nothing (algorithms 2.4, G3D's threshold).
 inline constexpr float kLeastDirection_px = 1.5F;
-
-struct ScalableBlurKernel {
-  int origin_x, origin_y;  ///< absolute coordinates of pixel (0, 0): the jitter is tied to them
-  int taps;                ///< odd
-  int passes;
-  bool checkerboard;
-  Directions directions;
-  bool relative;              ///< compares depths by their ratio, not over the soft extent
-  float inverse_soft_extent;  ///< 1 / metres
-  float background_weight, foreground_weight, both_moving_weight, centre_weight;
-};
 
 /// The row's own data: the velocity v_C of the pixels, v_N of the tiles around each pixel, and of its own tile.
 struct ScalableBlurRow {
   VelocityRow own, neighbourhood, tile;
 };
-
-namespace detail {
-using namespace gathering;
 
 /// How far the sample lies behind the centre, in depth extents. Slides: over a soft extent; Guertin et al. 2014: as a
 /// share of the nearer depth (algorithms 3.1).
@@ -48,6 +40,9 @@ inline Float tap_weight(const ScalableBlurKernel& k, Float centre_speed, Float c
   return k.background_weight * background + k.foreground_weight * foreground +
          select(both_moving, Float(k.both_moving_weight), Float(0.0F));
 }
+
+/// Jitter is the same every so many pixels.
+inline constexpr int kJitterPeriod_px = 4;
 
 /// In (-0.5, 0.5), a share of the tap spacing. Slides: checkerboard (its +-1/4 is G3D's, algorithms 2.3), or 4x4. Every
 /// further pass shifts it by an even share of the spacing.
@@ -102,47 +97,54 @@ inline Search search_of(Directions directions, const ScalableBlurRow& row, int x
 
 /// The distance of a tap is that of the place, not of the pixel that is read there, as in the slides, which do not
 /// round; it is also what algorithms 3.5 was computed with.
-inline Gathered one_pass(const ScalableBlurKernel& k, const GatherPlanes& p, const Search& search, int x, int y,
-                         int pass) {
-  const int middle = (k.taps - 1) / 2, index = y * p.stride + x;
-  const Float speed = max(load(p.speed + index), kLeastRadius_px), depth = load(p.depth + index);
-  const Float spacing = 2.0F / static_cast<float>(k.taps + 1), jitter = jitter_of(k, x, y, pass);
-  Gathered sum = gathered(p, index, k.centre_weight / speed);  // algorithms 2.2: w = 1 / |V[X]|
+inline Gathered one_pass(const ScalableBlurKernel& k, const GatherRow& row, const Search& search, const Tap& centre,
+                         Float jitter, int x) {
+  const int middle = (k.taps - 1) / 2;
+  const Float spacing = 2.0F / static_cast<float>(k.taps + 1);
+  Gathered sum = gathered(centre, k.centre_weight / centre.speed);  // algorithms 2.2: w = 1 / |V[X]|
   for (int i = 0; i < k.taps; ++i) {
     if (i == middle) continue;
     // algorithms 2.2: mix(-1, 1, (i + j + 1) / (S + 1))
     const Float t = (Float(static_cast<float>(i - middle)) + jitter) * spacing;
     const Direction& along = search.of_tap(i, middle);
-    const Tap tap = tap_at(p, iota(x), Int(y), {along.v.x * t, along.v.y * t});
-    add(p, tap, tap_weight(k, speed, depth, tap, along.length * abs(t)), sum);
+    const Tap tap = tap_at(row, x, {along.v.x * t, along.v.y * t});
+    add(tap, tap_weight(k, centre.speed, centre.depth, tap, along.length * abs(t)), sum);
   }
   return sum;
 }
 
-}  // namespace detail
+/// The mean of all passes.
+inline Gathered all_passes(const ScalableBlurKernel& k, const GatherRow& row, const Search& search, const Tap& centre,
+                           Float jitter, int x) {
+  Gathered sum = one_pass(k, row, search, centre, jitter, x);
+  if (k.passes == 1) return sum;
+  Quad difference{0.0F, 0.0F, 0.0F, 0.0F};
+  for (int pass = 0; pass < k.passes; ++pass) {
+    if (pass > 0) sum = one_pass(k, row, search, centre, jitter_of(k, x, row.y, pass), x);
+    difference.a += sum.difference.a / sum.weight;
+    difference.b += sum.difference.b / sum.weight;
+    difference.c += sum.difference.c / sum.weight;
+    difference.d += sum.difference.d / sum.weight;
+  }
+  return {sum.centre, difference, static_cast<float>(k.passes)};
+}
 
-/// Blurs row y: the mean of all passes. Pixels that do not move are left as they are in `target`, which holds the
-/// source's values.
-inline void scalable_blur_row(const ScalableBlurKernel& k, const GatherPlanes& p, const ScalableBlurRow& row,
-                              float* const* target, int y) {
-  using namespace detail;
-  for (int x = 0; x < p.width; x += kLanes) {
-    const Search search = search_of(k.directions, row, x);
-    // slide "Current Gen Implementation": branch on velocity
-    const Mask moving = (search.neighbourhood.length > kLeastRadius_px) & (load(p.speed + y * p.stride + x) > 0.0F);
+/// Blurs some columns of a row. Pixels that do not move are left as they are.
+inline void scalable_blur_row(const ScalableBlurKernel& k, const GatherRow& row, const ScalableBlurRow& velocities,
+                              Columns columns) {
+  Float jitter = jitter_of(k, columns.first, row.y, 0);
+  for (int x = columns.first; x < columns.last; x += kLanes) {
+    const Search search = search_of(k.directions, velocities, x);
+    const Mask fast = search.neighbourhood.length > kLeastRadius_px;  // slide "Current Gen Implementation": branch
+    if (!any(fast)) continue;
+    const Tap centre = centre_at(row, x);
+    const Mask moving = fast & centre.usable;
     if (!any(moving)) continue;
-    Gathered sum = one_pass(k, p, search, x, y, 0);
-    if (k.passes > 1) {
-      Float difference[GatherPlanes::kChannels] = {};
-      for (int pass = 0; pass < k.passes; ++pass) {
-        if (pass > 0) sum = one_pass(k, p, search, x, y, pass);
-        for (int c = 0; c < p.channels; ++c) difference[c] += sum.difference[c] / sum.weight;
-      }
-      for (int c = 0; c < p.channels; ++c) sum.difference[c] = difference[c];
-      sum.weight = static_cast<float>(k.passes);
-    }
-    store_mean(p, sum, moving, target, x);
+    if (kLanes % kJitterPeriod_px != 0) jitter = jitter_of(k, x, row.y, 0);
+    store_mean(row, all_passes(k, row, search, centre, jitter, x), moving, x);
   }
 }
 
-}  // namespace aftershade::motionblur
+}  // namespace aftershade::motionblur::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,13 +1,31 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/motionblur/tile_max.cpp"  // this file, compiled once a SIMD target
 #include "core/motionblur/tile_max.h"
+
+#include <hwy/foreach_target.h>
 
 #include <algorithm>
 
 #include "core/motionblur/tile_max_kernel.h"
 #include "core/parallel/rows.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::motionblur::HWY_NAMESPACE {
+
+/// The longest velocity in each column of pixels of rows first to last - 1; `best` is cleared.
+void column_max(const HalfVelocity& velocity, int first, int last, const ColumnMax& best) {
+  for (int y = first; y < last; ++y) column_max_row(velocity.x.row(y), velocity.y.row(y), velocity.x.width(), best);
+}
+
+}  // namespace aftershade::motionblur::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace aftershade::motionblur {
 
 namespace {
+
+HWY_EXPORT(column_max);
 
 int floor_div(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
 
@@ -40,8 +58,7 @@ HalfVelocity tile_max(const HalfVelocity& velocity, int tile, Window window) {
   for_rows(grid.rows(), [&](int row) {
     Plane columns(width, 3);
     const ColumnMax best{columns.row(0), columns.row(1), columns.row(2)};
-    for (int y = grid.first_row(row); y < std::min(grid.first_row(row + 1), height); ++y)
-      column_max_row(velocity.x.row(y), velocity.y.row(y), width, best);
+    HWY_DYNAMIC_DISPATCH(column_max)(velocity, grid.first_row(row), std::min(grid.first_row(row + 1), height), best);
     for (int column = 0; column < grid.columns(); ++column) {
       Longest longest;
       for (int x = grid.first_column(column); x < std::min(grid.first_column(column + 1), width); ++x)
@@ -75,11 +92,13 @@ HalfVelocity neighbour_max(const HalfVelocity& tiles) {
 HalfVelocity widened(const HalfVelocity& tiles, const TileGrid& grid) {
   HalfVelocity out{Plane(grid.width(), grid.rows()), Plane(grid.width(), grid.rows())};
   for (int row = 0; row < grid.rows(); ++row)
-    for (int x = 0; x < grid.width(); ++x) {
-      out.x(x, row) = tiles.x(grid.column_of(x), row);
-      out.y(x, row) = tiles.y(grid.column_of(x), row);
+    for (int column = 0; column < grid.columns(); ++column) {
+      const int first = grid.first_column(column), last = std::min(grid.first_column(column + 1), grid.width());
+      std::fill(out.x.row(row) + first, out.x.row(row) + last, tiles.x(column, row));
+      std::fill(out.y.row(row) + first, out.y.row(row) + last, tiles.y(column, row));
     }
   return out;
 }
 
 }  // namespace aftershade::motionblur
+#endif

@@ -1,16 +1,19 @@
-#pragma once
+#if defined(AFTERSHADE_CORE_MOTIONBLUR_TILE_MAX_KERNEL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AFTERSHADE_CORE_MOTIONBLUR_TILE_MAX_KERNEL_H
+#undef AFTERSHADE_CORE_MOTIONBLUR_TILE_MAX_KERNEL_H
+#else
+#define AFTERSHADE_CORE_MOTIONBLUR_TILE_MAX_KERNEL_H
+#endif
+#include "core/motionblur/column_max.h"
 #include "core/simd/lanes.h"
 
-namespace aftershade::motionblur {
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::motionblur::HWY_NAMESPACE {
 
-/// The longest vector met so far in each pixel column; `square` starts at 0 (so does a column of zeros).
-struct ColumnMax {
-  float *square, *x, *y;
-};
+using namespace lanes::HWY_NAMESPACE;
 
 /// Takes one row of velocities into `best`; an equal length changes nothing, a NaN neither.
 inline void column_max_row(const float* x, const float* y, int width, ColumnMax best) {
-  using namespace lanes;
   for (int i = 0; i < width; i += kLanes) {
     const Float vx = load(x + i), vy = load(y + i);
     const Float square = vx * vx + vy * vy, before = load(best.square + i);
@@ -21,4 +24,6 @@ inline void column_max_row(const float* x, const float* y, int width, ColumnMax 
   }
 }
 
-}  // namespace aftershade::motionblur
+}  // namespace aftershade::motionblur::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

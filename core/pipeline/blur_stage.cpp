@@ -1,8 +1,13 @@
 #include "core/pipeline/blur_stage.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "core/base/text.h"
+#include "core/parallel/rows.h"
 
 namespace aftershade::pipeline {
 
@@ -15,26 +20,47 @@ constexpr int kCamerasBehind = 2;
 
 Window expanded(Window w, int reach) { return {w.min_x - reach, w.min_y - reach, w.max_x + reach, w.max_y + reach}; }
 
-/// Sum of |value| of the first three planes inside `inner` and everywhere.
+/// Sum of |value| over columns first to last - 1, in an order of its own; what is not finite counts for nothing.
+double light_of_columns(const float* row, int first, int last) {
+  constexpr int kSums = 8;  // beside each other, in the order of the columns
+  constexpr float kMost = std::numeric_limits<float>::max();
+  std::array<double, kSums> sums{};
+  for (int x = first; x < last; x += kSums)
+    for (int i = 0; i < std::min(kSums, last - x); ++i) {
+      const float value = std::abs(row[x + i]);
+      sums[static_cast<size_t>(i)] += value <= kMost ? static_cast<double>(value) : 0.0;
+    }
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+/// Sum of |value| of the first three planes inside a window and outside it.
 struct Light {
-  double inside = 0, all = 0;
+  double inside = 0, outside = 0;
 };
 Light light_of(const Layer& layer, Window window, Window inner) {
+  const int width = window.width();
+  const int first = std::clamp(inner.min_x - window.min_x, 0, width),
+            last = std::clamp(inner.max_x + 1 - window.min_x, first, width);
+  std::vector<Light> rows(static_cast<size_t>(window.height()));
+  for_rows(window.height(), [&](int y) {
+    Light& sum = rows[static_cast<size_t>(y)];
+    const bool crosses = y + window.min_y >= inner.min_y && y + window.min_y <= inner.max_y;
+    for (size_t c = 0; c < layer.planes.size() && c < 3; ++c) {
+      const float* row = layer.planes[c].row(y);
+      if (crosses) sum.inside += light_of_columns(row, first, last);
+      sum.outside +=
+          light_of_columns(row, 0, crosses ? first : width) + light_of_columns(row, crosses ? last : width, width);
+    }
+  });
   Light light;
-  for (size_t c = 0; c < layer.planes.size() && c < 3; ++c)
-    for (int y = 0; y < window.height(); ++y)
-      for (int x = 0; x < window.width(); ++x) {
-        const double value = std::abs(layer.planes[c](x, y));
-        if (!std::isfinite(value)) continue;
-        light.all += value;
-        if (inner.contains(x + window.min_x, y + window.min_y)) light.inside += value;
-      }
+  for (const Light& row : rows) light.inside += row.inside, light.outside += row.outside;
   return light;
 }
 
 void warn_of_lost_light(Work& work, const Layer& layer) {
+  if (intersection(layer.data_window, work.frame.window) == work.frame.window) return;
   const Light light = light_of(layer, work.frame.window, layer.data_window);
-  const double lost = light.all > 0 ? 1 - light.inside / light.all : 0;
+  const double all = light.inside + light.outside, lost = all > 0 ? light.outside / all : 0;
   if (lost > kWorthSaying)
     work.warn(
         cat("the data window cuts off ", fixed(100 * lost, 2), " % of the blurred light; --data-window grow keeps it"));
@@ -57,6 +83,25 @@ ConstPlaneView named_plane(const Frame& frame, const std::string& name) {
 }
 
 }  // namespace
+
+BlurScene::BlurScene(const motionblur::MotionParams& params, const motionblur::MotionSources& sources,
+                     float exposure_frames)
+    : window(sources.window),
+      display(sources.display),
+      depth(sources.depth),
+      shutter_frames(exposure_frames),
+      params_(params),
+      sources_(sources) {}
+
+const motionblur::Motion& BlurScene::motion() const {
+  if (!motion_) motion_ = motionblur::motion_of(params_, sources_, &without_);
+  return *motion_;
+}
+
+motionblur::HalfVelocity BlurScene::half_velocity(float max_radius_px) const {
+  if (motion_) return motionblur::half_velocity(*motion_, shutter_frames, max_radius_px);
+  return motionblur::half_velocity(params_, sources_, shutter_frames, max_radius_px, &without_);
+}
 
 std::vector<Plane*> channels_of(Layer& layer) {
   std::vector<Plane*> channels;
@@ -88,20 +133,25 @@ void BlurStage::observe(const Work& work) { cameras_[work.frame.number] = work.f
 void BlurStage::run(Work& work) {
   Frame& frame = work.frame;
   const float shutter = shutter_frames(work);
-  motionblur::WithoutVector without;
-  BlurScene scene = scene_of(frame, shutter, motion_of(frame, &without));
-  report_motion(work, without);
-  const int reach = reach_px(scene);
   const Window widest = united(frame.display, frame.window);  // blur may fill the picture, not leave it
+  std::vector<Layer*> layers;
+  bool may_grow = widest != frame.window;
+  for (Layer& layer : frame.layers)
+    if (layer.receives_blur) {
+      layers.push_back(&layer);
+      may_grow = may_grow || (work.options.grow_data_window && layer.data_window != widest);
+    }
+  std::optional<BlurScene> scene(std::in_place, motion_, sources_of(frame), shutter);
+  std::optional<motionblur::WithoutVector> without;
+  const int reach = may_grow ? reach_px(*scene) : 0;
   const Window window = intersection(expanded(frame.window, reach), widest);
   if (window != frame.window) {
+    without = scene->without();  // what the wider window adds has no vectors
     work.change_window(window);
-    scene = scene_of(frame, shutter, motion_of(frame));
+    scene.emplace(motion_, sources_of(frame), shutter);
   }
-  std::vector<Layer*> layers;
-  for (Layer& layer : frame.layers)
-    if (layer.receives_blur) layers.push_back(&layer);
-  blur(work, scene, layers);
+  blur(work, *scene, layers);
+  report_motion(work, without.value_or(scene->without()));
   for (Layer* layer : layers) {
     layer->changed = true;
     if (work.options.grow_data_window)
@@ -112,7 +162,11 @@ void BlurStage::run(Work& work) {
   while (!cameras_.empty() && cameras_.begin()->first < frame.number - kCamerasBehind) cameras_.erase(cameras_.begin());
 }
 
-motionblur::Motion BlurStage::motion_of(const Frame& frame, motionblur::WithoutVector* without) const {
+motionblur::Motion BlurStage::motion_of(const Frame& frame) const {
+  return motionblur::motion_of(motion_, sources_of(frame));
+}
+
+motionblur::MotionSources BlurStage::sources_of(const Frame& frame) const {
   motionblur::MotionSources sources;
   sources.prev_x = plane_of(frame, Role::velocity_prev, 0);
   sources.prev_y = plane_of(frame, Role::velocity_prev, 1);
@@ -131,16 +185,12 @@ motionblur::Motion BlurStage::motion_of(const Frame& frame, motionblur::WithoutV
   sources.added_mask = named_plane(frame, motion_.added_mask);
   sources.window = frame.window;
   sources.display = frame.display;
-  return motionblur::motion_of(motion_, sources, without);
+  return sources;
 }
 
 std::optional<Camera> BlurStage::camera_of(int frame) const {
   const auto found = cameras_.find(frame);
   return found != cameras_.end() ? found->second : std::nullopt;
-}
-
-BlurScene BlurStage::scene_of(const Frame& frame, float shutter_frames, motionblur::Motion motion) const {
-  return {std::move(motion), shutter_frames, plane_of(frame, Role::depth), frame.window, frame.display};
 }
 
 void BlurStage::report_motion(Work& work, motionblur::WithoutVector without) const {

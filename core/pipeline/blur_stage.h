@@ -4,17 +4,31 @@
 #include <span>
 #include <vector>
 
+#include "core/motionblur/half_velocity.h"
 #include "core/motionblur/motion.h"
 #include "core/pipeline/stage.h"
 
 namespace aftershade::pipeline {
 
-/// What a motion blur blurs with.
-struct BlurScene {
-  motionblur::Motion motion;  ///< of the frame's window
-  float shutter_frames;       ///< the shutter's length
-  ConstPlaneView depth;       ///< metres; empty (data == nullptr): the file has none
+/// What a motion blur blurs with. What it does not ask for is not worked out.
+class BlurScene {
+ public:
+  BlurScene(const motionblur::MotionParams& params, const motionblur::MotionSources& sources, float exposure_frames);
   Window window, display;
+  ConstPlaneView depth;  ///< metres; empty (data == nullptr): the file has none
+  float shutter_frames;  ///< the shutter's length
+
+  /// Of the frame's window.
+  const motionblur::Motion& motion() const;
+  motionblur::HalfVelocity half_velocity(float max_radius_px) const;
+  /// What became of pixels without a vector; known after either.
+  motionblur::WithoutVector without() const { return without_; }
+
+ private:
+  motionblur::MotionParams params_;
+  motionblur::MotionSources sources_;
+  mutable std::optional<motionblur::Motion> motion_;
+  mutable motionblur::WithoutVector without_;
 };
 
 /// The planes of a layer, to be blurred together.
@@ -37,19 +51,19 @@ class BlurStage : public Stage {
  protected:
   explicit BlurStage(const motionblur::MotionParams& motion) : motion_(motion) {}
 
-  /// How far light gets from its pixel, in whole pixels.
+  /// How far light gets from its pixel, in whole pixels. Asked for only where it may leave the data window.
   virtual int reach_px(const BlurScene& scene) const = 0;
   /// Blurs the layers in place; their planes cover scene.window. May add diagnostics and further channels to the frame.
   virtual void blur(Work& work, const BlurScene& scene, std::span<Layer* const> layers) = 0;
 
   /// The motion of a frame that was observed, or of any frame with vectors: reads its roles, its named channels and the
   /// cameras observed beside it.
-  motionblur::Motion motion_of(const Frame& frame, motionblur::WithoutVector* without = nullptr) const;
+  motionblur::Motion motion_of(const Frame& frame) const;
 
  private:
   float shutter_frames(Work& work) const;
   std::optional<Camera> camera_of(int frame) const;
-  BlurScene scene_of(const Frame& frame, float shutter_frames, motionblur::Motion motion) const;
+  motionblur::MotionSources sources_of(const Frame& frame) const;
   void report_motion(Work& work, motionblur::WithoutVector without) const;
 
   motionblur::MotionParams motion_;

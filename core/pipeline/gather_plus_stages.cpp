@@ -17,13 +17,13 @@ class GatherPlus final : public BlurStage {
   }
 
   int reach_px(const BlurScene& scene) const override {
-    const float longest = motionblur::longest_displacement_px(scene.motion, shutter(scene), params_.path);
+    const float longest = motionblur::longest_displacement_px(scene.motion(), shutter(scene), params_.path);
     const int side = std::max(scene.window.width(), scene.window.height());
     return static_cast<int>(std::ceil(std::min(longest, static_cast<float>(side))));
   }
 
   void blur(Work&, const BlurScene& scene, std::span<Layer* const> layers) override {
-    const motionblur::GatherPlusInput input{&scene.motion, scene.depth, scene.window, shutter(scene)};
+    const motionblur::GatherPlusInput input{&scene.motion(), scene.depth, scene.window, shutter(scene)};
     for (Layer* layer : layers) motionblur::gather_plus(params_, input, channels_of(*layer));
   }
 

@@ -21,13 +21,13 @@ class ScalableBlur final : public BlurStage {
 
   int reach_px(const BlurScene& scene) const override {
     const float half = 0.5F * scene.shutter_frames;
-    const float longest = motionblur::longest_displacement_px(scene.motion, {-half, half}, motionblur::Path::straight);
+    const float longest =
+        motionblur::longest_displacement_px(scene.motion(), {-half, half}, motionblur::Path::straight);
     return static_cast<int>(std::ceil(std::min(longest, limit_px(scene))));
   }
 
   void blur(Work& work, const BlurScene& scene, std::span<Layer* const> layers) override {
-    const motionblur::HalfVelocity velocity =
-        motionblur::half_velocity(scene.motion, scene.shutter_frames, limit_px(scene));
+    const motionblur::HalfVelocity velocity = scene.half_velocity(limit_px(scene));
     const int height = scene.display.height();
     const motionblur::GatherInput input{scene.depth, &velocity, scene.window, height};
     motionblur::HalfVelocity tiles;

@@ -57,7 +57,7 @@ class Reconstruct final : public BlurStage {
   }
 
   int reach_px(const BlurScene& scene) const override {
-    const float longest = motionblur::longest_displacement_px(scene.motion, shutter(scene), params_.path);
+    const float longest = motionblur::longest_displacement_px(scene.motion(), shutter(scene), params_.path);
     const int side = std::max(scene.window.width(), scene.window.height());
     return static_cast<int>(std::ceil(std::min(longest, static_cast<float>(side))));
   }
@@ -75,7 +75,7 @@ class Reconstruct final : public BlurStage {
     }
     for (Layer* layer : layers) {
       std::vector<motionblur::SequenceFrame> sequence{
-          {number, scene.window, work.frame.camera, scene.depth, &scene.motion, {}, layer->alpha}};
+          {number, scene.window, work.frame.camera, scene.depth, &scene.motion(), {}, layer->alpha}};
       for (const Plane& plane : layer->planes) sequence.front().channels.push_back(plane);
       for (size_t i = 0; i < neighbours.size(); ++i) add_neighbour(*neighbours[i], motions[i], *layer, sequence);
       motionblur::Reconstruction result = motionblur::reconstruct(params_, sequence, shutter(scene));

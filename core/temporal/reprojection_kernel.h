@@ -2,7 +2,7 @@
 #include <limits>
 
 #include "core/filter/lane_geometry.h"
-#include "core/filter/static_motion.h"
+#include "core/filter/static_motion_lanes.h"
 
 namespace aftershade::temporal {
 using namespace lanes;
