@@ -4,64 +4,33 @@
 #include <cstdio>
 
 #include "core/base/text.h"
-#include "tests/bench/timing.h"
+#include "tests/bench/stage_cost.h"
 #include "tests/pipeline/blur_quality.h"
 
 namespace {
 
 using namespace aftershade;
 
+using tests::Frames;
+
 constexpr int kFrame = 4;
-
-/// What a blur reads and changes.
-Frame copy_of_frame(const Frame& frame) {
-  Frame copy;
-  copy.number = frame.number;
-  copy.window = frame.window, copy.display = frame.display, copy.camera = frame.camera;
-  for (size_t role = 0; role < frame.roles.size(); ++role)
-    for (const Plane& plane : frame.roles[role]) copy.roles[role].push_back(copy_of(plane));
-  for (const Layer& layer : frame.layers) {
-    Layer& target = copy.layers.emplace_back();
-    target.channels = layer.channels, target.alpha = layer.alpha, target.data_window = layer.data_window;
-    target.is_beauty = layer.is_beauty, target.receives_blur = layer.receives_blur;
-    for (const Plane& plane : layer.planes) target.planes.push_back(copy_of(plane));
-  }
-  return copy;
-}
-
-using Frames = std::map<int, Frame>;
 
 /// One method, timed again and again on the same frame.
 class Timed {
  public:
-  Timed(std::string name, const preset::Preset& preset)
-      : name_(std::move(name)),
-        stage_(pipeline::make_stage(preset.stages.at(0).params)),
-        needs_(stage_->needs(tests::kFullOffer)) {}
+  Timed(std::string name, const preset::Preset& preset) : name_(std::move(name)), stages_(preset, tests::kFullOffer) {}
   const std::string& name() const { return name_; }
-  const pipeline::Needs& needs() const { return needs_; }
+  const tests::TimedStages& stages() const { return stages_; }
 
-  /// A frame in the middle of a sequence: one frame seen, one blurred.
   void run(const Frames& frames, bool counts) {
-    const pipeline::WorkOptions options;
-    stage_->restart();
-    double seen = 0;
-    for (int f = kFrame - needs_.frames_before; needs_.has_window() && f <= kFrame + needs_.frames_after; ++f) {
-      Frame frame = copy_of_frame(frames.at(f));
-      const pipeline::Work work(frame, nullptr, options);
-      seen = tests::milliseconds([&] { stage_->observe(work); });
-    }
-    Frame frame = copy_of_frame(frames.at(kFrame));
-    pipeline::Work work(frame, nullptr, options);
-    const double blurred = tests::milliseconds([&] { stage_->run(work); });
-    if (counts) times_.push_back(seen + blurred);
+    const double ms = tests::milliseconds(stages_.run(frames, kFrame));
+    if (counts) times_.push_back(ms);
   }
   double take_median() { return tests::median(std::exchange(times_, {})); }
 
  private:
   std::string name_;
-  std::unique_ptr<pipeline::Stage> stage_;
-  pipeline::Needs needs_;
+  tests::TimedStages stages_;
   std::vector<double> times_;
 };
 
@@ -103,7 +72,7 @@ int main(int argc, char** argv) {
   const double longest_px = tests::longest_half_exposure_px(frames.at(kFrame));
   std::vector<Timed> methods = timed_methods();
   for (const Timed& method : methods)
-    for (int f = kFrame - method.needs().frames_before; f <= kFrame + method.needs().frames_after; ++f)
+    for (int f = kFrame - method.stages().frames_before(); f <= kFrame + method.stages().frames_after(); ++f)
       if (!frames.contains(f)) load(f);
   std::printf("crossing, %d x %d, longest half exposure %.1f px, medians of %d turns\n", options.width, options.height,
               longest_px, options.repetitions);

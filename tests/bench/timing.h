@@ -15,17 +15,24 @@
 /// What the benchmarks of cost share.
 namespace aftershade::tests {
 
-/// With one thread the processor's time, which others on the machine do not lengthen; with more, the wall's.
-inline double now_ms() {
-  using std::chrono::steady_clock;
-  if (thread_count() == 1) return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-  return std::chrono::duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
-}
-inline double milliseconds(const std::function<void()>& work) {
-  const double start = now_ms();
+/// Time by the clock, and the processor's time of all threads of this process.
+struct Elapsed {
+  double wall_ms = 0, cpu_ms = 0;
+};
+inline Elapsed operator+(Elapsed a, Elapsed b) { return {a.wall_ms + b.wall_ms, a.cpu_ms + b.cpu_ms}; }
+
+inline Elapsed elapsed(const std::function<void()>& work) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  const std::clock_t cpu_start = std::clock();
   work();
-  return now_ms() - start;
+  const double cpu_ms = 1e3 * static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
+  return {std::chrono::duration<double, std::milli>(Clock::now() - start).count(), cpu_ms};
 }
+
+/// With one thread the processor's time, which others on the machine do not lengthen; with more, the wall's.
+inline double milliseconds(const Elapsed& time) { return thread_count() == 1 ? time.cpu_ms : time.wall_ms; }
+inline double milliseconds(const std::function<void()>& work) { return milliseconds(elapsed(work)); }
 
 inline double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
