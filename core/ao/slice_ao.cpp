@@ -1,16 +1,60 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/ao/slice_ao.cpp"  // this file, compiled once a SIMD target
 #include "core/ao/slice_ao.h"
 
-#include <array>
-#include <cmath>
-#include <vector>
+#include <hwy/foreach_target.h>
 
 #include "core/ao/pixel_filter.h"
 #include "core/ao/slice_ao_kernel.h"
 #include "core/ao/thickness.h"
-#include "core/math/sampling.h"
 #include "core/parallel/rows.h"
-#include "core/simd/scalar.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::ao::HWY_NAMESPACE {
+
+/// Level m of the pyramid; its odd rows and columns are shifted by the bits 1010... and 101... of m digits.
+DepthLevel depth_level(const filter::DepthPyramid& pyramid, int m) {
+  return {Samples(pyramid.level(m)), m, pyramid.origin_x() >> m, pyramid.origin_y() >> m, (2 << m) / 3, (1 << m) / 3};
+}
+
+Plane slices_of_plane(const SliceAoParams& params, const filter::Surface& surface, const filter::SampleGrid& grid,
+                      const filter::DepthPyramid& pyramid, const SliceTurns& turns, ConstPlaneView thickness,
+                      ConstPlaneView depth2, ConstPlaneView thickness2) {
+  std::vector<DepthLevel> depth;
+  for (int m = 0; m < pyramid.levels(); ++m) depth.push_back(depth_level(pyramid, m));
+  const auto border = params.border == Border::extend ? border_planes(surface) : std::vector<BorderPlane>();
+  Plane out = Plane::for_overwrite(grid.width(), grid.height());
+  for_rows(out.height(), [&](int y) {
+    Intervals list;
+    slice_ao_row({.grid = GridSamples(grid),
+                  .nx = Samples(surface.nx),
+                  .ny = Samples(surface.ny),
+                  .nz = Samples(surface.nz),
+                  .lens = Lens(surface.projection),
+                  .fx = surface.projection.fx,
+                  .fy = surface.projection.fy,
+                  .depth = depth,
+                  .origin_x = surface.origin_x,
+                  .origin_y = surface.origin_y,
+                  .thickness = Samples(thickness),
+                  .border = border,
+                  .depth2 = Samples(depth2),
+                  .thickness2 = Samples(thickness2),
+                  .params = params,
+                  .turns = turns,
+                  .texel_x = (surface.origin_x + grid.origin_x) / grid.step,
+                  .texel_y = (surface.origin_y + grid.origin_y) / grid.step,
+                  .list = list,
+                  .out = out.row(y)},
+                 y);
+  });
+  return out;
+}
+
+}  // namespace aftershade::ao::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace aftershade::ao {
 
 const params::Table& SliceAoParams::table() {
@@ -24,6 +68,10 @@ const params::Table& SliceAoParams::table() {
         .add("steps", &P::steps, {0, 65536},
              "Samples to each side of a slice, every pixel near and wider apart far away; 0 for every pixel.")
         .add("radius_m", &P::radius_m, {1e-6, 1e6}, "Distance at which a surface no longer occludes.")
+        .add("noise_tile", &P::noise_tile, {"4x4", "3x3"},
+             "Block of pixels after which the turns of the slices repeat: a filter of that size takes their pattern "
+             "away.")
+        .add("depth_mips", &P::depth_mips, "Let samples far from their pixel read reduced depth, which is faster.")
         .add("pixel_filter_px", &P::pixel_filter_px, {0, 16},
              "Standard deviation of the pixel filter that rendered images have and values at pixel centres lack; 0 for "
              "none.");
@@ -35,58 +83,25 @@ const params::Table& SliceAoParams::table() {
 }
 
 namespace {
-
-/// Half a turn in `count` parts, shifted by 16ths of a part from pixel to pixel of a 4x4 block. Successive multiples of
-/// the golden ratio turn the whole pattern from frame to frame.
-std::vector<slice::Direction> directions(int count, bool per_frame, int frame_number) {
-  const double noise = per_frame ? frame_number * 0.6180339887498949 : 0;
-  std::vector<slice::Direction> out;
-  for (const float shift : kBayer4x4)
-    for (int k = 0; k < count; ++k) {
-      const double turns = 0.5 * (k + static_cast<double>(shift) + noise - std::floor(noise)) / count;
-      const lanes::UnitVector direction = lanes::unit_vector(static_cast<float>(turns));
-      out.push_back({direction.x, direction.y});
-    }
-  return out;
+HWY_EXPORT(slices_of_plane);
 }
-
-/// Sample offsets in another order than the turns.
-std::array<float, 16> sample_offsets() {
-  std::array<float, 16> out{};
-  for (size_t i = 0; i < 16; ++i) out[i] = kBayer4x4[(5 * i + 3) % 16];
-  return out;
-}
-
-}  // namespace
 
 Plane slice_ao(const SliceAoParams& params, const filter::Surface& surface, const filter::SampleGrid& grid,
                int frame_number, ConstPlaneView depth2) {
-  const Projection& lens = surface.projection;
-  const Plane thickness = planar_thickness(params, surface.depth, lens);
-  const Plane thickness2 = depth2.empty() ? Plane() : planar_thickness(params, depth2, lens);
-  const auto turns = directions(params.slices, params.per_frame_noise, frame_number);
-  const auto offsets = sample_offsets();
-  const slice::Slices slices{depth_view(params, surface, thickness, depth2, thickness2),
-                             params.radius_m,
-                             params.steps,
-                             params.slices,
-                             turns,
-                             offsets};
-  const int texel_x = (surface.origin_x + grid.origin_x) / grid.step,
-            texel_y = (surface.origin_y + grid.origin_y) / grid.step;
-  Plane out(grid.width(), grid.height(), 1.0F);
-  for_rows(out.height(), [&](int y) {
-    std::vector<slice::Interval> list;
-    for (int x = 0; x < out.width(); ++x) {
-      if (!is_surface(grid.depth(x, y))) continue;
-      const int px = grid.step == 1 ? x : static_cast<int>(grid.pixel_x(x, y));
-      const int py = grid.step == 1 ? y : static_cast<int>(grid.pixel_y(x, y));
-      const int cell = ((y + texel_y) & 3) * 4 + ((x + texel_x) & 3);
-      out(x, y) = slice::visibility(slices, slices.view.receiver(px, py), cell, list);
-    }
-  });
+  const bool measured = params.thickness == ThicknessModel::width;
+  const auto thickness_of = [&](ConstPlaneView depth) {
+    return measured && !depth.empty() ? planar_thickness(params, depth, surface.projection) : Plane();
+  };
+  const Plane thickness = thickness_of(surface.depth), thickness2 = thickness_of(depth2);
+  // Successive multiples of the golden ratio turn the whole pattern from frame to frame.
+  const SliceTurns turns(params.noise_tile, params.slices,
+                         params.per_frame_noise ? frame_number * 0.6180339887498949 : 0);
+  const filter::DepthPyramid pyramid(surface.depth, params.depth_mips ? 6 : 1, surface.origin_x, surface.origin_y);
+  Plane out =
+      HWY_DYNAMIC_DISPATCH(slices_of_plane)(params, surface, grid, pyramid, turns, thickness, depth2, thickness2);
   if (!(params.pixel_filter_px > 0)) return out;
   return pixel_filtered(out, grid.depth, params.pixel_filter_px / static_cast<float>(grid.step));
 }
 
 }  // namespace aftershade::ao
+#endif

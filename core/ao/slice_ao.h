@@ -1,5 +1,6 @@
 #pragma once
 #include "core/ao/depth_geometry.h"
+#include "core/ao/slice_turns.h"
 #include "core/filter/sample_grid.h"
 #include "core/filter/surface.h"
 
@@ -17,6 +18,8 @@ struct SliceAoParams : DepthGeometry {
   int slices = 4;  ///< each has two sides
   int steps = 32;  ///< samples a side; 0: every pixel
   float radius_m = 1.0F;
+  bool depth_mips = false;
+  NoiseTile noise_tile = NoiseTile::four;
   float pixel_filter_px = 0.5F;
   bool per_frame_noise = false;
   static const params::Table& table();

@@ -1,201 +1,388 @@
-#pragma once
+// Slices with exact intervals of visibility, lane by lane: each lane has its own slices and samples.
+#if defined(AFTERSHADE_CORE_AO_SLICE_AO_KERNEL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AFTERSHADE_CORE_AO_SLICE_AO_KERNEL_H
+#undef AFTERSHADE_CORE_AO_SLICE_AO_KERNEL_H
+#else
+#define AFTERSHADE_CORE_AO_SLICE_AO_KERNEL_H
+#endif
+#include <array>
 #include <span>
-#include <vector>
 
-#include "core/ao/depth_view.h"
+#include "core/ao/border_planes.h"
+#include "core/ao/interval_union.h"
+#include "core/ao/slice_ao.h"
+#include "core/ao/slice_turns.h"
+#include "core/filter/lane_geometry.h"
+#include "core/filter/pyramid.h"
 
-/// Slices with exact interval visibility. Plain scalar code: lists of intervals resist lanes.
-namespace aftershade::ao::slice {
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::ao::HWY_NAMESPACE {
 
-/// The angle of (x, y) from the x axis in [0, pi], for y >= 0 and not both 0; absolute error below 5e-7, relative error
-/// below 5e-7 near 0. Reduced to |t| <= tan(pi/8) by atan(t) = pi/4 + atan((t - 1) / (t + 1)); there atan(t) =
-/// t + t^3 p(t^2), p a Chebyshev fit.
-inline float angle_of(float x, float y) {
-  constexpr float kPi = 3.14159265F, kTanEighth = 0.41421356F;
-  const float a = std::fabs(x);
-  const bool steep = y > a;
-  float t = steep ? a / y : y / a, offset = 0;
-  if (t > kTanEighth) {
-    t = (t - 1) / (t + 1);
-    offset = kPi / 4;
-  }
-  const float z = t * t;
-  float p = 8.52979248e-2F;
-  p = p * z - 1.40265502e-1F;
-  p = p * z + 1.99913941e-1F;
-  p = p * z - 3.33332881e-1F;
-  float angle = offset + (t + t * z * p);
-  if (steep) angle = kPi / 2 - angle;
-  return x < 0 ? kPi - angle : angle;
+using namespace lanes::HWY_NAMESPACE;
+using namespace filter::HWY_NAMESPACE;
+
+inline constexpr int kLogMaxOffset = 3;  ///< SAO's LOG_MAX_OFFSET: samples nearer than 16 px read level 0
+
+inline Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Point operator*(Point a, Float s) { return {a.x * s, a.y * s, a.z * s}; }
+inline Point operator-(Point a) { return {-a.x, -a.y, -a.z}; }
+inline Point cross(Point a, Point b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+inline Point unit(Point a) { return a * (1.0F / sqrt(dot(a, a))); }
+
+/// theta - sin(theta) cos(theta), theta in [0, pi], of cos(theta): twice the area of the unit disc's part beyond.
+/// Absolute error below 5e-7. With w = 1 - |cos| it is w^(3/2) p(w) up to a right angle, p a minimax fit.
+inline Float segment_area(Float cos) {
+  constexpr float kPi = 3.14159265F;
+  const Float w = max(1.0F - abs(cos), 0.0F);
+  Float p = -1.63692131e-3F;
+  p = p * w + 1.15174882e-3F;
+  p = p * w - 6.91660587e-3F;
+  p = p * w - 2.44298354e-2F;
+  p = p * w - 2.83000827e-1F;
+  p = p * w + 1.88562882F;
+  const Float area = w * sqrt(w) * p;
+  return select(cos < 0.0F, kPi - area, area);
 }
 
-/// Elevations are kept as t = -cot(theta), which grows with the angle theta from the view vector.
-struct Interval {
-  float from, to;
-};
-
-/// Adds [from, to] to a sorted list of disjoint intervals.
-inline void unite(std::vector<Interval>& list, Interval added) {
-  size_t first = list.size();
-  while (first > 0 && list[first - 1].to >= added.from) --first;
-  size_t last = first;
-  for (; last < list.size() && list[last].from <= added.to; ++last) {
-    added.from = std::min(added.from, list[last].from);
-    added.to = std::max(added.to, list[last].to);
-  }
-  const auto at = list.begin() + static_cast<std::ptrdiff_t>(first);
-  if (first == last) {
-    list.insert(at, added);
-  } else {
-    *at = added;
-    list.erase(at + 1, list.begin() + static_cast<std::ptrdiff_t>(last));
-  }
-}
-
-/// One side of a slice: gamma is the angle of the projected normal, positive towards this side, at most a right angle.
+/// Elevations are kept as t = -cos(theta), theta the angle from the view vector. One side of a slice in which the
+/// projected normal has length |N'| and angle gamma: |N'| Int cos(theta - gamma) sin(theta) dtheta over an interval
+/// (algorithms 9.1) is half of |N'| cos(gamma) sin^2(theta) + |N'| sin(gamma) (theta - sin(theta) cos(theta)).
 struct Arc {
-  float sin_gamma, cos_gamma;
-  /// Int_0^theta cos(t - gamma) sin t dt = (cos g + 2 theta sin g - cos(2 theta - g)) / 4   (algorithms 9.1), as
-  /// (sin^2 theta cos g + (theta - sin theta cos theta) sin g) / 2, in which nothing large cancels.
-  float up_to(float cos, float sin) const {
-    return 0.5F * (sin * sin * cos_gamma + (angle_of(cos, sin) - sin * cos) * sin_gamma);
-  }
-  float operator()(float t) const {
-    const float sin = 1 / std::sqrt(1 + t * t);
-    return up_to(-t * sin, sin);
-  }
-  float horizon() const { return sin_gamma / cos_gamma; }  ///< t of gamma + pi/2
-  float whole() const { return up_to(-sin_gamma, cos_gamma); }
-  float hidden(std::span<const Interval> list) const {
-    float sum = 0;
-    for (const Interval& i : list) sum += (*this)(i.to) - (*this)(i.from);
-    return sum;
+  Float along_view, across;  ///< |N'| cos(gamma), |N'| sin(gamma)
+  Float hidden(const Intervals& list) const {
+    Float squares = 0.0F, areas = 0.0F;
+    for (int i = 0; i < list.size(); ++i) {
+      const Interval interval = list[i];
+      squares += interval.from * interval.from - interval.to * interval.to;
+      areas += segment_area(-interval.to) - segment_area(-interval.from);
+    }
+    return 0.5F * (along_view * squares + across * areas);
   }
 };
 
-struct Direction {
-  float cos, sin;
+/// What is reduced to a level of filter::DepthPyramid, and where its values come from.
+struct DepthLevel {
+  Samples depth;
+  int level, first_x, first_y;  ///< absolute texel coordinates of (0, 0)
+  int odd_row, odd_column;      ///< z_{m+1}(x, y) = z_m(2x + (y & 1), 2y + (x & 1)) from this level down to 0
 };
 
-struct Slices {
-  DepthView view;
-  float radius_m;
-  int steps, count;                       ///< samples a side (0: every pixel), slices
-  std::span<const Direction> directions;  ///< 16 rotations of `count` directions
-  std::span<const float> offsets;         ///< 16 shifts of the sample positions, in [0, 1)
+/// Index into border_planes of a pixel on the border.
+HWY_INLINE Int border_place(int width, int height, Int x, Int y) {
+  const Int column = select(x == Int(0), y + 2 * width, y + (2 * width + height));
+  return select(y == Int(0), x, select(y == Int(height - 1), x + width, column));
+}
+
+struct SliceAoRow {
+  GridSamples grid;
+  Samples nx, ny, nz;
+  Lens lens;
+  float fx, fy;
+  std::span<const DepthLevel> depth;    ///< the first is the image
+  int origin_x, origin_y;               ///< absolute coordinates of the image's (0, 0)
+  Samples thickness;                    ///< of planar depth; not read where it is constant
+  std::span<const BorderPlane> border;  ///< empty where it is open
+  Samples depth2, thickness2;           ///< the second layer; its depth has width 0 where there is none
+  const SliceAoParams& params;
+  const SliceTurns& turns;
+  int texel_x, texel_y;  ///< absolute texel coordinates of the grid's (0, 0)
+  Intervals& list;       ///< scratch
+  float* out;
 };
 
-/// A side of one slice: the unit vector across the view vector, that across the slice, and how a point slides into it.
+/// What is evaluated.
+struct Receiver {
+  Float x, y;  ///< pixel
+  Point point, view, normal;
+};
+
+/// Unit normal of a pixel's surface seen along unit vector `along`. One that faces away is turned to the camera as
+/// little as needed; without one the surface is taken to face the camera.
+inline Point usable_normal(Point n, Point along) {
+  const Float away = dot(n, along);
+  n = select(away > 0.0F, n - along * away, n);
+  const Float squared = dot(n, n);
+  return select((squared > 0.01F) & (squared < 100.0F), unit(n), -along);
+}
+
+inline Receiver receiver(const SliceAoRow& row, int x0, int y, Float depth) {
+  const bool every = row.grid.every_pixel;
+  const Int column = row.grid.depth.clamp_x(iota(x0)), iy = y;
+  const Float x = every ? to_float(iota(x0)) : row.grid.pixel_x(column, iy),
+              fy = every ? to_float(iy) : row.grid.pixel_y(column, iy);
+  const auto normal = [&](const Samples& s) {
+    return every ? load(s.data + static_cast<std::ptrdiff_t>(y) * s.stride + x0) : s(to_int(x), to_int(fy));
+  };
+  const Point point = unproject(row.lens, x, fy, depth);
+  const Point along = row.lens.orthographic ? Point{0.0F, 0.0F, 1.0F} : unit(unproject(row.lens, x, fy, 1.0F));
+  return {x, fy, point, -along, usable_normal({normal(row.nx), normal(row.ny), normal(row.nz)}, along)};
+}
+
+/// A direction from the receiver in which samples are measured: a point of planar depth z that the image shows (x, y)
+/// pixels from the receiver lies at z (x per_x + y per_y) + (z - Z) per_depth, Z the receiver's depth; without
+/// perspective at x per_x + y per_y + (z - Z) per_depth.
+struct Axis {
+  Axis(const Lens& lens, Point direction, Float along_ray)
+      : per_x(direction.x * lens.inv_fx), per_y(-(direction.y * lens.inv_fy)), per_depth(along_ray) {}
+  Float per_x, per_y, per_depth;
+  Float beside(Float x, Float y) const { return x * per_x + y * per_y; }
+};
+
+/// A side of one slice: `across` the view vector and `toward` the camera, such that a sample beside the slice is slid
+/// into it along the receiver's tangent plane, by the shortest way (ours): a surface parallel to the receiver's keeps
+/// its height, so a plane never occludes itself.
 struct Side {
-  Vec across, beside;
-  float slide_across, slide_view;
-  Arc arc;
-  float horizon;
+  const Axis &across, &toward, &normal;
+  float sign;     ///< of `across`: 1 or -1
+  Float horizon;  ///< t of gamma + pi/2
 };
 
-/// A sample beside the slice is slid into it along the receiver's tangent plane, by the shortest way (ours): a surface
-/// parallel to the receiver's keeps its height, so a plane never occludes itself.
-inline Side make_side(Vec across, Vec beside, const Receiver& at) {
-  const float nd = dot(at.normal, across), nv = dot(at.normal, at.view), ne = dot(at.normal, beside);
-  const float squared = nd * nd + nv * nv, length = std::sqrt(squared);
-  const Arc arc{nd / length, nv / length};
-  return {across, beside, ne * nd / squared, ne * nv / squared, arc, arc.horizon()};
-}
+/// What a sample shows in one layer, where `there`: a surface `depth` metres behind the receiver in planar depth, solid
+/// for `length` of planar depth.
+struct Solid {
+  Mask there;
+  Float x, y, z, length;  ///< pixels from the receiver; planar depth
+};
 
-/// t of the point `a` > 0 across and `b` towards the camera; squares stay finite.
-inline float elevation(float a, float b) { return std::clamp(-b / a, -1e9F, 1e9F); }
-
-/// What the solid hides of the arc: from its front to its back, inside the sphere. Nothing: from >= to.
-inline Interval hidden_by(const Side& side, const Receiver& at, const Solid& solid, float radius_m) {
-  constexpr Interval kNothing{1, -1};
-  if (below_horizon(at, solid)) return kNothing;
-  const Vec d = solid.front - at.point;
-  const float c = dot(d, side.beside);
-  const float a = dot(d, side.across) + c * side.slide_across, b = dot(d, at.view) + c * side.slide_view;
-  const float ra = dot(solid.ray, side.across), rb = dot(solid.ray, at.view);
+/// What the solid hides of the arc: from its front to its back, inside the sphere, where `hides`. Nothing is hidden by
+/// a solid whose centre line is all below the receiver's tangent plane; the facets around it that the line stands for
+/// must not hide either, or convex surfaces would hide themselves.
+struct Hidden {
+  Mask hides;
+  Float a0, b0, a1, b1;  ///< across and towards the camera: front and back
+};
+HWY_INLINE Hidden hidden_by(const SliceAoRow& row, const Side& side, Float receiver_z, const Solid& solid) {
+  const bool flat = row.lens.orthographic;
+  const Float scale = flat ? Float(1.0F) : solid.z, behind = solid.z - receiver_z;
+  const Float beside_a = side.across.beside(solid.x, solid.y) * side.sign,
+              beside_b = side.toward.beside(solid.x, solid.y), beside_n = side.normal.beside(solid.x, solid.y);
+  const Float a = scale * beside_a, b = scale * beside_b + behind * side.toward.per_depth,
+              height = scale * beside_n + behind * side.normal.per_depth;
+  // Per metre of planar depth along the sample's ray.
+  const Float ra = flat ? Float(0.0F) : beside_a, rb = (flat ? 0.0F : beside_b) + side.toward.per_depth,
+              rise = (flat ? 0.0F : beside_n) + side.normal.per_depth;
   // (a, b) + l (ra, rb) is inside the sphere where rr l^2 + 2 half l + outside < 0.
-  const float rr = ra * ra + rb * rb, half = a * ra + b * rb, outside = a * a + b * b - radius_m * radius_m;
-  float first = 0, last = solid.length;
-  const bool front_inside = outside < 0, back_inside = (rr * last + 2 * half) * last + outside < 0;
-  if (!front_inside || !back_inside) {
-    const float discriminant = half * half - rr * outside;
-    if ((!front_inside && half >= 0) || !(discriminant > 0)) return kNothing;
-    const float root = std::sqrt(discriminant);
-    if (!front_inside) first = (-half - root) / rr;
-    last = std::min(last, (root - half) / rr);
-  }
-  const float a0 = a + first * ra, a1 = a + last * ra;
-  if (!(first < last) || !(a0 > 0) || !(a1 > 0)) return kNothing;
-  return {elevation(a0, b + first * rb), std::min(elevation(a1, b + last * rb), side.horizon)};
+  const Float rr = ra * ra + rb * rb, half = a * ra + b * rb;
+  const Float outside = a * a + b * b - row.params.radius_m * row.params.radius_m;
+  const Float discriminant = half * half - rr * outside, root = sqrt(discriminant);
+  const Float per_length = 1.0F / sqrt(rr), inv_rr = per_length * per_length;
+  const Float length = row.params.thickness == ThicknessModel::constant
+                           ? min(row.params.max_thickness_m * per_length, solid.length)
+                           : solid.length;
+  const Float first = max((-half - root) * inv_rr, 0.0F), last = min((root - half) * inv_rr, length);
+  const Float a0 = a + first * ra, a1 = a + last * ra;
+  const Mask above = max(height, height + length * rise) > 0.0F;
+  const Mask hides = solid.there & above & (discriminant > 0.0F) & (first < last) & (min(a0, a1) > 0.0F);
+  return {hides, a0, b + first * rb, a1, b + last * rb};
 }
 
-/// From the receiver to where this side leaves the projected sphere of the radius, in pixels.
-struct Screen {
-  float x, y;
+inline Interval elevations(const Hidden& hidden, Float horizon) {
+  const Float from = -hidden.b0 / sqrt(hidden.a0 * hidden.a0 + hidden.b0 * hidden.b0),
+              to = min(-hidden.b1 / sqrt(hidden.a1 * hidden.a1 + hidden.b1 * hidden.b1), horizon);
+  return select(hidden.hides & (from < to), {from, to}, no_interval());
+}
+
+/// The way of a side through the image: pixels from sample to sample along the longer axis, and how many.
+struct Way {
+  Float dx, dy, longest_px;
 };
 /// The tangent to the sphere leaves the eye at asin(R / |P|) from the receiver's ray, also off axis; a sphere around
 /// the camera, or one that reaches beside it, has no end in the image.
-inline Screen reach(const Slices& all, const Receiver& at, Vec across) {
-  const Projection& lens = all.view.lens;
-  if (lens.orthographic) return {across.x * all.radius_m * lens.fx, -across.y * all.radius_m * lens.fy};
-  const Vec p = at.point * (1 / at.point.z);
-  const float sine = all.radius_m / std::sqrt(dot(at.point, at.point));
-  if (sine < 1) {
-    const Vec edge = across * sine - at.view * std::sqrt(1 - sine * sine);
-    if (edge.z > 0) return {(edge.x / edge.z - p.x) * lens.fx, -(edge.y / edge.z - p.y) * lens.fy};
+struct Reach {
+  Float slope_x, slope_y;  ///< of the receiver's ray
+  Float sine;
+  Point back;  ///< the view vector times the cosine
+};
+inline Reach reach(const SliceAoRow& row, const Receiver& at) {
+  const Point ray = unproject(row.lens, at.x, at.y, 1.0F);
+  const Float sine = row.params.radius_m / sqrt(dot(at.point, at.point));
+  return {ray.x, ray.y, sine, at.view * sqrt(1.0F - sine * sine)};
+}
+inline Way way(const SliceAoRow& row, const Reach& reach, Point across) {
+  if (row.lens.orthographic) {
+    const Float x = across.x * row.params.radius_m * row.fx, y = -across.y * row.params.radius_m * row.fy;
+    const Float longest = max(abs(x), abs(y));
+    return {x / longest, y / longest, longest};
   }
+  const Point edge = across * reach.sine - reach.back;
+  const Float inv_z = 1.0F / edge.z;
+  Float x = (edge.x * inv_z - reach.slope_x) * row.fx, y = (reach.slope_y - edge.y * inv_z) * row.fy;
+  const Mask ends = (reach.sine < 1.0F) & (edge.z > 0.0F);
+  x = select(ends, x, (across.x - reach.slope_x * across.z) * row.fx);
+  y = select(ends, y, (reach.slope_y * across.z - across.y) * row.fy);
   constexpr float kBeyond = 1e6F;
-  const float x = (across.x - p.x * across.z) * lens.fx, y = -(across.y - p.y * across.z) * lens.fy;
-  const float scale = kBeyond / std::max(std::fabs(x), std::fabs(y));
-  return {x * scale, y * scale};
+  const Float longest = max(abs(x), abs(y)), inv_longest = 1.0F / longest;
+  return {x * inv_longest, y * inv_longest, select(ends, longest, kBeyond)};
 }
 
-/// Nearest integer, |x| < 2^22; in lanes round_small.
-inline int nearest(float x) { return static_cast<int>((x + 12582912.0F) - 12582912.0F); }
+/// A pixel that is read, its depth, and whether it is inside the image.
+struct Sample {
+  Float x, y, z;
+  Int ix, iy;
+  Mask inside;
+};
+
+/// What level `m` of the pyramid shows over pixel (x, y), put where it was taken.
+HWY_INLINE Sample sample(const SliceAoRow& row, const DepthLevel& level, Float x, Float y) {
+  const Samples& image = row.depth[0].depth;
+  const Float cx = clamp(x, 0.0F, static_cast<float>(image.width - 1)),
+              cy = clamp(y, 0.0F, static_cast<float>(image.height - 1));
+  const Int ix = to_int(cx), iy = to_int(cy);
+  const Mask inside = (cx == x) & (cy == y);
+  if (level.level == 0) return {x, y, image(ix, iy), ix, iy, inside};
+  const Int tx = (ix + row.origin_x) >> level.level, ty = (iy + row.origin_y) >> level.level;
+  const Float z = level.depth(tx - level.first_x, ty - level.first_y);
+  const Int column = tx & 1, line = ty & 1;
+  const Int px = (tx << level.level) + line * level.odd_row + column * level.odd_column - row.origin_x,
+            py = (ty << level.level) + column * level.odd_row + line * level.odd_column - row.origin_y;
+  const Int kx = image.clamp_x(px), ky = image.clamp_y(py);
+  return {to_float(kx), to_float(ky), z, kx, ky, inside};
+}
+
+/// Outside the image, the surface of the border goes on as a plane (ours).
+inline Sample beyond_border(const SliceAoRow& row, const Sample& s, Float x, Float y) {
+  const Samples& image = row.depth[0].depth;
+  const Int ix = image.clamp_x(to_int(x)), iy = image.clamp_y(to_int(y));
+  const float* plane = row.border.front().data();
+  const Int place = border_place(image.width, image.height, ix, iy) * 3;
+  const Point slope = unproject(row.lens, x, y, 1.0F);
+  const Float sum = gather(plane, place) * slope.x + gather(plane + 1, place) * slope.y + gather(plane + 2, place);
+  const Float z = row.lens.orthographic ? sum : 1.0F / sum;
+  return {select(s.inside, s.x, x),   select(s.inside, s.y, y),   select(s.inside, s.z, z),
+          select(s.inside, s.ix, ix), select(s.inside, s.iy, iy), s.inside};
+}
+
+/// Adds what the sample hides in every layer.
+HWY_INLINE void hide(const SliceAoRow& row, const Receiver& at, const Side& side, Mask wanted, Sample s,
+                     Intervals& list) {
+  const bool constant = row.params.thickness == ThicknessModel::constant;
+  const bool two = row.depth2.width > 0;
+  Float length = constant ? Float(HUGE_VALF) : row.thickness(s.ix, s.iy);
+  Solid solid{wanted & is_surface(s.z), s.x - at.x, s.y - at.y, s.z, length};
+  Mask covers = solid.there & s.inside;
+  Float z2 = 0.0F;
+  if (two) {
+    z2 = row.depth2(s.ix, s.iy);
+    covers = covers & is_surface(z2) & (z2 > s.z);
+    solid.length = select(covers, min(length, z2 - s.z), length);
+  }
+  for (int layer = 0;; ++layer) {
+    const Hidden hidden = hidden_by(row, side, at.point.z, solid);
+    if (any(hidden.hides)) list.unite(elevations(hidden, side.horizon));
+    if (layer == 1 || !two || !any(covers)) return;
+    solid.there = covers;
+    solid.z = z2;
+    solid.length = constant ? Float(HUGE_VALF) : row.thickness2(s.ix, s.iy);
+  }
+}
+
+/// The levels of the pyramid that the samples of a block of pixels read, by their number; the last for all beyond.
+struct Levels {
+  static constexpr int kMost = 8;
+  std::array<const DepthLevel*, kMost> of_step;
+  const DepthLevel& operator()(int step) const { return *of_step[static_cast<size_t>(std::min(step, kMost) - 1)]; }
+};
 
 /// Samples from the receiver outwards, i + (r - steps) ((i - offset) / steps)^2 pixels away: every pixel near, wider
 /// apart far away (XeGTAO distributes by the square too, algorithms 9.2).
-inline float hidden_on_side(const Slices& all, const Receiver& at, const Side& side, float offset,
-                            std::vector<Interval>& list) {
+HWY_INLINE void search(const SliceAoRow& row, const Levels& levels, const Receiver& at, const Side& side,
+                       const Way& way, Float offset, Intervals& list) {
+  const Samples& image = row.depth[0].depth;
+  const auto longest = static_cast<float>(std::max(image.width, image.height));
+  const Float last = floor(min(way.longest_px, longest) + 0.5F);
+  const Float count = row.params.steps > 0 ? min(last, static_cast<float>(row.params.steps)) : last;
+  const Float growth = (last - count) / (count * count);
   list.clear();
-  const Screen end = reach(all, at, side.across);
-  const float longest = std::max(std::fabs(end.x), std::fabs(end.y)), dx = end.x / longest, dy = end.y / longest;
-  const auto image = static_cast<float>(std::max(all.view.depth.width, all.view.depth.height));
-  const int last = static_cast<int>(std::min(longest, image) + 0.5F);
-  const int count = all.steps > 0 ? std::min(all.steps, last) : last, layers = all.view.layers();
-  if (count == 0) return 0;
-  const auto n = static_cast<float>(count);
-  const float growth = (static_cast<float>(last) - n) / (n * n);
-  for (int i = 1; i <= count; ++i) {
-    const float k = static_cast<float>(i) - offset, r = static_cast<float>(i + static_cast<int>(growth * k * k));
-    const int x = at.x + nearest(dx * r), y = at.y + nearest(dy * r);
-    for (int layer = 0; layer < layers; ++layer) {
-      const std::optional<Solid> solid = all.view.solid(x, y, layer);
-      if (!solid) continue;
-      const Interval hidden = hidden_by(side, at, *solid, all.radius_m);
-      if (hidden.from < hidden.to) unite(list, hidden);
+  for (int i = 1;; ++i) {
+    const auto step = static_cast<float>(i);
+    Mask wanted = step <= count;
+    if (!any(wanted)) break;
+    const Float k = step - offset, r = step + floor(growth * k * k);
+    const Float x = at.x + round(way.dx * r), y = at.y + round(way.dy * r);
+    Sample s = sample(row, levels(i), x, y);
+    if (!all(s.inside | !wanted)) {
+      if (row.border.empty())
+        wanted = wanted & s.inside;
+      else
+        s = beyond_border(row, s, x, y);
     }
+    hide(row, at, side, wanted, s, list);
   }
-  return side.arc.hidden(list);
 }
 
 /// 1 - sum |N'| hidden / sum |N'| whole over the slices (algorithms 9.1 and 9.3; GTAO has the mean of |N'| whole, which
 /// is 1 only for many slices).
-inline float visibility(const Slices& all, const Receiver& at, int cell, std::vector<Interval>& list) {
-  const Basis basis = basis_across(at.view);
-  float hidden = 0, whole = 0;
-  for (int k = 0; k < all.count; ++k) {
-    const Direction turn = all.directions[static_cast<size_t>(cell * all.count + k)];
-    const Vec across = basis.s * turn.cos + basis.t * turn.sin, beside = cross(across, at.view);
-    const float nd = dot(at.normal, across), nv = dot(at.normal, at.view), weight = std::sqrt(nd * nd + nv * nv);
-    if (!(weight > 1e-4F)) continue;  // the slice's plane is the tangent plane
+inline Float visibility(const SliceAoRow& row, const Levels& levels, const Receiver& at, int turn_x, int turn_y) {
+  const Point reference = select(abs(at.view.x) < 0.7F, Point{1.0F, 0.0F, 0.0F}, Point{0.0F, 1.0F, 0.0F});
+  const Point s = unit(cross(at.view, reference)), t = cross(at.view, s);
+  const Reach sphere = reach(row, at);
+  const Point ray{sphere.slope_x, sphere.slope_y, 1.0F};
+  const Axis normal(row.lens, at.normal, row.lens.orthographic ? at.normal.z : dot(at.normal, ray));
+  const Float from_camera = dot(at.view, row.lens.orthographic ? Point{0.0F, 0.0F, 1.0F} : ray);
+  const Float offset = load(row.turns.offsets(turn_y) + turn_x);
+  Float hidden = 0.0F, whole = 0.0F;
+  for (int k = 0; k < row.params.slices; ++k) {
+    const Point across = s * load(row.turns.cos(turn_y, k) + turn_x) + t * load(row.turns.sin(turn_y, k) + turn_x);
+    const Point beside = cross(across, at.view);
+    const Float nd = dot(at.normal, across), nv = dot(at.normal, at.view), ne = dot(at.normal, beside);
+    const Float squared = nd * nd + nv * nv, length = sqrt(squared), slide = ne / squared;
+    const Mask stands = length > 1e-4F;  // else the slice's plane is the tangent plane
+    const Axis a(row.lens, across + beside * (slide * nd), 0.0F),
+        b(row.lens, at.view + beside * (slide * nv), from_camera);
+    const Float horizon = nd / length;
     for (const float sign : {1.0F, -1.0F}) {
-      const Side side = make_side(across * sign, beside * sign, at);
-      hidden += weight * hidden_on_side(all, at, side, all.offsets[static_cast<size_t>(cell)], list);
-      whole += weight * side.arc.whole();
+      search(row, levels, at, {a, b, normal, sign, horizon * sign}, way(row, sphere, across * sign), offset, row.list);
+      hidden += select(stands, Arc{nv, nd * sign}.hidden(row.list), 0.0F);
     }
+    // Both sides up to gamma +- pi/2, where sin^2(theta) = cos^2(gamma).
+    const Float open = nv * (1.0F - horizon * horizon) + nd * (segment_area(-horizon) - 1.57079633F);
+    whole += select(stands, open, 0.0F);
   }
-  return whole > 0 ? std::clamp(1 - hidden / whole, 0.0F, 1.0F) : 1.0F;
+  return select(whole > 0.0F, clamp(1.0F - hidden / whole, 0.0F, 1.0F), 1.0F);
 }
 
-}  // namespace aftershade::ao::slice
+/// Samples that no lane of texels [from, to) has nearer than 2^(m + kLogMaxOffset) pixels read level m (algorithms 4.2,
+/// here for blocks of pixels at once).
+inline Levels levels_of(const SliceAoRow& row, const float* depth, int from, int to) {
+  Levels levels{};
+  levels.of_step.fill(&row.depth[0]);
+  if (row.depth.size() == 1) return levels;
+  float farthest = 0;
+  for (int x = from; x < to; ++x)
+    if (depth[x] <= 3.402823466e38F) farthest = std::max(farthest, depth[x]);
+  const float r = row.params.radius_m * std::max(row.fx, row.fy) / (row.lens.orthographic ? 1.0F : farthest);
+  const auto steps = static_cast<float>(row.params.steps);
+  for (size_t i = 1; i < levels.of_step.size(); ++i) {  // least with offset 1
+    const float nearest = steps > 0 ? (r - steps) / (steps * steps) * static_cast<float>(i * i) : 0;
+    size_t level = 0;
+    while (level + 1 < row.depth.size() && nearest >= static_cast<float>(2 << level << kLogMaxOffset)) ++level;
+    levels.of_step[i] = &row.depth[level];
+  }
+  return levels;
+}
+
+/// Blocks of 16 texels by absolute coordinates read the same levels; what a vector stores beyond its block is stored
+/// again.
+inline void slice_ao_row(const SliceAoRow& row, int y) {
+  constexpr int kBlock = 16;
+  const int turn_y = row.turns.cell(y + row.texel_y), width = row.grid.depth.width;
+  const float* depths = row.grid.depth.data + static_cast<std::ptrdiff_t>(y) * row.grid.depth.stride;
+  for (int from = 0, to; from < width; from = to) {
+    to = std::min(from + kBlock - ((from + row.texel_x) & (kBlock - 1)), width);
+    const Levels levels = levels_of(row, depths, from, to);
+    for (int x0 = from; x0 < to; x0 += kLanes) {
+      const Float depth = load(depths + x0);
+      const Mask here = is_surface(depth) & (iota(x0) < Int(to));
+      Float out = 1.0F;
+      if (any(here)) {
+        const Receiver at = receiver(row, x0, y, select(here, depth, 1.0F));
+        out = select(here, visibility(row, levels, at, row.turns.cell(x0 + row.texel_x), turn_y), 1.0F);
+      }
+      store(row.out + x0, out);
+    }
+  }
+}
+
+}  // namespace aftershade::ao::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif
