@@ -22,12 +22,14 @@ using ConstPlaneView = BasicPlaneView<const float>;
 
 /// Owns a float image. Rows start at 64-byte boundaries and have at least kPadding readable and writable floats behind
 /// the last pixel, so that kernels need no tail loop; the padding is never part of a result. Movable; copy with
-/// copy_of().
+/// copy_of(). Storage is recycled (core/image/plane_memory.h).
 class Plane {
  public:
   static constexpr int kPadding = 16;
   Plane() = default;
   Plane(int width, int height, float fill = 0.0F);
+  /// Pixels with any value, for somebody who writes every one; the padding is 0.
+  static Plane for_overwrite(int width, int height);
   Plane(Plane&& other) noexcept : storage_(std::move(other.storage_)), view_(std::exchange(other.view_, {})) {}
   Plane& operator=(Plane&& other) noexcept {
     storage_ = std::move(other.storage_);
@@ -49,6 +51,7 @@ class Plane {
 
  private:
   struct Free {
+    size_t bytes;
     void operator()(float* p) const;
   };
   std::unique_ptr<float, Free> storage_;

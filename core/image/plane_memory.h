@@ -1,0 +1,25 @@
+#pragma once
+#include <cstddef>
+
+/// Where planes' storage comes from. Memory that the system has just handed out costs 0.15 ms of processor time a
+/// megabyte before its first use (a fault a page), and a frame makes dozens of planes of the same few sizes: so what
+/// one plane gives back another takes. All of it is safe to call from any thread.
+namespace aftershade {
+
+/// `bytes` of memory with any content, at a 64-byte boundary. Throws std::bad_alloc.
+float* take_plane_memory(size_t bytes);
+/// Gives back what take_plane_memory(bytes) returned.
+void return_plane_memory(float* memory, size_t bytes) noexcept;
+
+/// Bytes in planes of at least 128 KiB (smaller ones are never kept), an eighth more at most for sizes that differ a
+/// little to be the same; bytes kept for others; the most there ever were
+/// in planes. Kept memory never lifts the sum above that peak: before more is asked of the system, the memory kept
+/// longest goes back. Builds with AddressSanitizer keep none, so that it sees every use after the end.
+struct PlaneMemory {
+  size_t used = 0, kept = 0, peak = 0;
+};
+PlaneMemory plane_memory();
+/// Gives the kept memory back to the system.
+void release_plane_memory() noexcept;
+
+}  // namespace aftershade
