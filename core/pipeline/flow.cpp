@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "core/base/text.h"
+#include "core/parallel/rows.h"
 #include "core/pipeline/item.h"
 
 namespace aftershade::pipeline {
@@ -12,8 +13,9 @@ namespace {
 
 /// Filters may leave 0..1 by a rounding error.
 Plane clamped(Plane ao) {
-  for (int y = 0; y < ao.height(); ++y)
+  for_rows(ao.height(), [&](int y) {
     for (int x = 0; x < ao.width(); ++x) ao(x, y) = std::clamp(ao(x, y), 0.0F, 1.0F);
+  });
   return ao;
 }
 

@@ -101,7 +101,7 @@ struct Progress {
   int number;
   bool written;
   size_t done, total;                ///< written frames so far, and in all
-  double milliseconds;               ///< since the last frame was finished
+  double milliseconds;               ///< since this was told of the last frame
   std::vector<FrameReport> reports;  ///< one a view
 };
 
@@ -110,12 +110,19 @@ struct RunOptions {
   std::vector<int> on_disk;  ///< all frames there are, sorted
   int preroll = 40;          ///< (8/9)^40 = 0.9 % of an older history's weight is left
   bool keep_going = false;   ///< a frame that fails is reported and the run goes on without it
+  /// How many frames may be in memory at once, besides those that stages hold back: 1 reads, computes and writes one
+  /// after the other, 3 reads the next frame and writes the last one while one is computed. Changes no result.
+  size_t frames_in_flight = 3;
   std::function<void(const Progress&)> on_progress;
   std::function<void(const Error&)> on_error;  ///< with keep_going, for each failed frame, which the error names
-  std::function<bool()> should_stop;           ///< asked before every frame
+  std::function<void(int)> on_loaded;  ///< a frame was read, or failed to be: before anything else is told of it
+  std::function<bool()> should_stop;   ///< asked before every frame is computed; all before it will be written
 };
 
-/// The frame loop: plans, loads, filters and writes. Returns the number of frames written.
+/// The frame loop: plans, loads, filters and writes. Returns the number of frames written. load() and write() are
+/// called on any thread, both at the same time, but each for one frame after the other, in order. Stages see the frames
+/// in order, on the caller's thread, where `options`' functions are called too, in an order that depends on the frames
+/// alone. Without keep_going the first failure leaves as it is, once the frames before it are written.
 size_t run(std::vector<ViewPipeline>& views, FrameSource& source, FrameSink& sink, const RunOptions& options);
 
 }  // namespace aftershade::pipeline

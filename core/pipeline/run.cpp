@@ -2,35 +2,49 @@
 #include <map>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/pipeline/pipeline.h"
+#include "core/pipeline/read_ahead.h"
 
 namespace aftershade::pipeline {
 
 namespace {
 
-/// One run over the planned frames: loads, pushes through every view, writes what all views have finished.
+/// One run over the planned frames: reads the next frame while one is pushed through every view, and writes what all
+/// views have finished meanwhile. More frames at once would gain nothing, since each of the three works in parallel
+/// inside. One thread, the caller's, pushes, and tells the caller everything in the order of the frames, whenever
+/// reading and writing happen to end: of a frame first what was noticed in reading it, then that it is written.
 class Run {
  public:
   Run(std::vector<ViewPipeline>& views, FrameSource& source, FrameSink& sink, const RunOptions& options)
-      : views_(views), source_(source), sink_(sink), options_(options) {}
+      : views_(views),
+        sink_(sink),
+        options_(options),
+        planned_(plan(options.written, options.on_disk, views.front().stages(),  // all views have the same stages
+                      views.front().dependencies(), options.preroll)),
+        previous_(views.size()),
+        source_(views, source, planned_) {}
 
   size_t go() {
-    const ViewPipeline& any = views_.front();  // all views have the same stages
     bool follows = true;
-    for (PlannedFrame planned :
-         plan(options_.written, options_.on_disk, any.stages(), any.dependencies(), options_.preroll)) {
-      if (options_.should_stop && options_.should_stop()) return done_;
+    for (PlannedFrame planned : planned_) {
+      if (options_.should_stop && options_.should_stop()) {
+        settle();
+        return done_;
+      }
       planned.restarts = planned.restarts || !follows;
-      follows = attempt([&] { visit(planned); });
+      follows = visit(planned);
       write_finished();
     }
-    for (ViewPipeline& view : views_) view.flush();
-    write_finished();
+    finish_what_came_before();
     return done_;
   }
 
  private:
+  struct Writing {
+    Progress progress;
+    std::vector<Frame> frames;
+    std::optional<Background> task;
+  };
+
   /// With keep_going a failure is reported and costs its frame alone.
   template <class Work>
   bool attempt(Work&& work) {
@@ -44,32 +58,52 @@ class Run {
     }
   }
 
-  /// Memory that runs out while a frame is read is its failure, like any other.
-  std::optional<Frame> load(int number, const std::string& view, RoleSet roles, bool layers) {
-    try {
-      return source_.load(number, view, roles, layers);
-    } catch (const std::bad_alloc&) {
-      throw Error(ErrorCode::memory, cat("frame ", number, ": out of memory"), "fewer --threads need less");
+  /// Frames that this run keeps in memory, those aside that stages hold back.
+  size_t in_flight() const { return (source_.has_begun() ? 1 : 0) + (computing_ ? 1 : 0) + (writing_ ? 1 : 0); }
+
+  void read_ahead() {
+    if (!source_.at_end() && !source_.has_begun() && in_flight() < options_.frames_in_flight) source_.begin();
+  }
+
+  LoadedFrame next_frame() {
+    if (!source_.has_begun()) {
+      if (in_flight() >= options_.frames_in_flight) settle();
+      source_.begin();
+    }
+    return source_.take();
+  }
+
+  /// False: the frame could not be read, and nothing of it goes on its way.
+  bool visit(const PlannedFrame& planned) {
+    LoadedFrame loaded = next_frame();
+    computing_ = true;
+    read_ahead();
+    if (!loaded.failure) undisturbed([&] { push(loaded, planned); });
+    settle();
+    if (options_.on_loaded) options_.on_loaded(planned.number);
+    read_ahead();
+    computing_ = false;
+    return attempt([&] {
+      if (!loaded.failure) return;
+      if (!options_.keep_going && planned.restarts) finish_what_came_before();
+      std::rethrow_exception(loaded.failure);
+    });
+  }
+
+  void push(LoadedFrame& loaded, const PlannedFrame& planned) {
+    for (size_t i = 0; i < views_.size(); ++i) {
+      if (planned.restarts) previous_[i].reset();
+      views_[i].push(std::move(loaded.views[i]), std::exchange(previous_[i], std::move(loaded.for_next[i])), planned);
     }
   }
 
-  /// Nothing of a frame that cannot be read goes on its way.
-  void visit(const PlannedFrame& planned) {
-    struct Loaded {
-      Frame frame;
-      std::optional<Frame> previous;
-    };
-    std::vector<Loaded> loaded;
-    for (const ViewPipeline& view : views_) {
-      auto frame = load(planned.number, view.view(), view.roles(planned.through), view.layers(planned.through));
-      if (!frame) throw Error(ErrorCode::no_input, cat("frame ", planned.number, " is missing"));
-      std::optional<Frame> previous;
-      if (!planned.restarts && !view.previous_roles().empty())
-        previous = load(planned.number - 1, view.view(), view.previous_roles(), false);
-      loaded.push_back({std::move(*frame), std::move(previous)});
-    }
-    for (size_t i = 0; i < views_.size(); ++i)
-      views_[i].push(std::move(loaded[i].frame), std::move(loaded[i].previous), planned);
+  /// Frames that wait for neighbours do not wait for those behind a gap, or the end.
+  void finish_what_came_before() {
+    undisturbed([&] {
+      for (ViewPipeline& view : views_) view.flush();
+    });
+    write_finished();
+    settle();
   }
 
   /// A frame is written once all its views are finished. Source and sink name the frame in their own errors.
@@ -79,22 +113,41 @@ class Run {
         pending_[finished.frame.number].push_back(std::move(finished));
     while (!pending_.empty() && pending_.begin()->second.size() == views_.size()) {
       auto node = pending_.extract(pending_.begin());
-      attempt([&] { write(node.key(), std::move(node.mapped())); });
+      settle();
+      attempt([&] { begin_writing(node.key(), std::move(node.mapped())); });
     }
   }
 
-  void write(int number, std::vector<FinishedFrame> views) {
-    Progress progress{number, views.front().written, done_, options_.written.size(), 0, {}};
-    std::vector<Frame> frames;
+  void begin_writing(int number, std::vector<FinishedFrame> views) {
+    auto writing = std::make_unique<Writing>();
+    writing->progress = {number, views.front().written, done_, options_.written.size(), 0, {}};
     for (FinishedFrame& view : views) {
       if (view.error) throw Error(*view.error);
-      frames.push_back(std::move(view.frame));
-      progress.reports.push_back(std::move(view.report));
+      for (auto& planes : view.frame.roles) planes.clear();  // only stages read them
+      writing->frames.push_back(std::move(view.frame));
+      writing->progress.reports.push_back(std::move(view.report));
     }
-    if (progress.written) {
+    if (!writing->progress.written) return tell(writing->progress);
+    writing->task.emplace([this, number, &frames = writing->frames] {
       sink_.write(number, frames);
-      progress.done = ++done_;
-    }
+      frames.clear();
+    });
+    writing_ = std::move(writing);
+    if (options_.frames_in_flight <= 1) settle();
+  }
+
+  /// The frame that is being written is complete after this, and the caller knows, or has failed.
+  void settle() {
+    if (!writing_) return;
+    const std::unique_ptr<Writing> writing = std::move(writing_);
+    attempt([&] {
+      writing->task->wait();
+      writing->progress.done = ++done_;
+      tell(writing->progress);
+    });
+  }
+
+  void tell(Progress& progress) {
     const auto now = std::chrono::steady_clock::now();
     progress.milliseconds = std::chrono::duration<double, std::milli>(now - last_).count();
     last_ = now;
@@ -102,12 +155,16 @@ class Run {
   }
 
   std::vector<ViewPipeline>& views_;
-  FrameSource& source_;
   FrameSink& sink_;
   const RunOptions& options_;
+  const std::vector<PlannedFrame> planned_;
+  std::vector<std::optional<Frame>> previous_;  ///< one a view: of the frame pushed last
   std::map<int, std::vector<FinishedFrame>> pending_;
   size_t done_ = 0;
+  bool computing_ = false;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  std::unique_ptr<Writing> writing_;
+  ReadAhead source_;
 };
 
 }  // namespace

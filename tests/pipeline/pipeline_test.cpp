@@ -293,8 +293,10 @@ TEST(Run, StopsBetweenFrames) {
   MemorySink sink;
   RunOptions options;
   options.written = options.on_disk = source.numbers();
-  options.should_stop = [&] { return sink.planes.size() == 2; };
+  int asked = 0;
+  options.should_stop = [&] { return ++asked == 3; };
   EXPECT_EQ(run(views, source, sink, options), 2U);
+  EXPECT_EQ(sink.planes.size(), 2U);
 }
 
 /// A bright square that fills its own small data window and moves right.
