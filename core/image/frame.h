@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,11 @@ struct Layer {
   bool changed = false;  ///< a stage has changed its pixels
 };
 
+/// What a source keeps of a frame's file for the sink, such as decoded bytes.
+struct FileData {
+  virtual ~FileData() = default;
+};
+
 /// One view of one frame: what effects read (roles), what they change (layers), what they add (added).
 /// All planes cover `window`; index (0, 0) is absolute pixel (window.min_x, window.min_y). Effects align frames by
 /// absolute coordinates, because windows move.
@@ -47,6 +53,7 @@ struct Frame {
   /// Channels to add, by name without view ("AO", "aftershade.mask"); half in the file unless `part` has them already.
   /// A name that is also in `named` means that channel, in whichever part it lies: its pixels change, nothing else.
   std::map<std::string, Plane> added;
+  std::shared_ptr<const FileData> file;  ///< null: the sink reads the file again
 
   bool has(Role role) const { return !roles[static_cast<size_t>(role)].empty(); }
   std::vector<Plane>& planes(Role role) { return roles[static_cast<size_t>(role)]; }

@@ -79,16 +79,29 @@ void read_offsets(ExrLayout& layout, const ByteSource& source, const std::string
   if (end < 0 || end > source.size()) throw truncated(path, "its last chunk is incomplete");
 }
 
-std::vector<char> read_chunk(const ExrLayout& layout, int part, int64_t index, const ByteSource& source) {
+ChunkPlace find_chunk(const ExrLayout& layout, int part, int64_t index, const ByteSource& source) {
   const RawPart& raw = layout.parts[static_cast<size_t>(part)];
   const uint64_t offset = raw.offsets[static_cast<size_t>(index)];
   const Leader leader = read_leader(layout, raw, offset, source);
   const int64_t start = static_cast<int64_t>(offset) + (layout.multi_part() ? 4 : 0);
   if (!is_chunk(leader, raw.geometry, part, index) || leader.size > source.size() - start - leader.bytes)
     throw Iex::InputExc(cat("chunk ", index, " is damaged"));
-  std::vector<char> chunk(static_cast<size_t>(leader.bytes + leader.size));
-  source.read_at(start, chunk);
-  return chunk;
+  return {start, static_cast<int>(leader.bytes), leader.size};
+}
+
+int format_leader(const Geometry& geometry, int64_t index, int packed_bytes, char* target) {
+  int32_t values[5] = {geometry.window.min_y + static_cast<int32_t>(index * geometry.rows_in_chunk()), packed_bytes};
+  int count = 2;
+  if (geometry.tiled()) {
+    const int64_t across = geometry.chunks_across();
+    const int32_t tile[5] = {static_cast<int32_t>(index % across), static_cast<int32_t>(index / across), 0, 0,
+                             packed_bytes};
+    count = 5;
+    std::copy_n(tile, count, values);
+  }
+  const auto bytes = sizeof(int32_t) * static_cast<size_t>(count);
+  std::memcpy(target, values, bytes);
+  return static_cast<int>(bytes);
 }
 
 }  // namespace aftershade::io

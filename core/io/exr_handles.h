@@ -14,19 +14,27 @@
 
 namespace aftershade::io {
 
-/// The OpenEXR objects of an open file. The order of the members is the order in which they need each other.
+/// An open file. The order of the members is the order in which they need each other.
 struct ExrReader::Handles {
   FileInfo info;
   ReadLimits limits;
   FileBytes bytes;
   ExrLayout layout;
-  SourceStream stream;
-  std::unique_ptr<Imf::MultiPartInputFile> file;
+  bool standard_headers = false;  ///< else OpenEXR alone reads it
+
+  /// Are parts of this compression decoded and encoded here (exr_codec.h), not by OpenEXR?
+  bool uses_codecs(int compression) const;
+  /// The file as OpenEXR opens it, which parses the headers once more: done when it is first needed.
+  Imf::MultiPartInputFile& openexr() const;
 
   Handles(const std::string& path, const ReadLimits& read_limits)
       : limits(read_limits), bytes(path), stream(bytes, path) {
     info.path = path;
   }
+
+ private:
+  mutable SourceStream stream;
+  mutable std::unique_ptr<Imf::MultiPartInputFile> file;
 };
 
 /// "part beauty of shot.0001.exr", or the path alone when the file has one part without a name.
@@ -53,8 +61,8 @@ auto guarded(const std::string& subject, Work&& work) {
 /// absolute pixel (0, 0), which may lie outside the memory: integer arithmetic, as pointers may not go there.
 Imf::Slice slice(Imf::PixelType type, void* data, Window window, size_t x_stride, size_t y_stride);
 
-/// Decodes rows [first, last] of a part into the frame buffer, whose slices cover the data window's columns; tiled
-/// parts are decoded whole. Throws what OpenEXR throws.
+/// Lets OpenEXR decode rows [first, last] of a part into the frame buffer, whose slices cover the data window's
+/// columns; tiled parts are decoded whole. Throws what OpenEXR throws.
 void decode(const ExrReader::Handles& handles, int part, const Imf::FrameBuffer& target, int first, int last);
 
 }  // namespace aftershade::io

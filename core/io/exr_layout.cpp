@@ -168,9 +168,14 @@ std::optional<int> compression_from_name(std::string_view name) {
 int64_t Geometry::chunks_across() const {
   return tiled() ? (int64_t{window.width()} + tile_width - 1) / tile_width : 1;
 }
-int64_t Geometry::chunks_down() const {
-  const int rows = tiled() ? tile_height : kCompressions[static_cast<size_t>(compression)].rows;
-  return (int64_t{window.height()} + rows - 1) / rows;
+int64_t Geometry::chunks_down() const { return (int64_t{window.height()} + rows_in_chunk() - 1) / rows_in_chunk(); }
+Window Geometry::chunk_window(int64_t index) const {
+  const int64_t x = tiled() ? index % chunks_across() * tile_width : 0;
+  const int64_t y = (tiled() ? index / chunks_across() : index) * rows_in_chunk();
+  const int64_t width = tiled() ? tile_width : window.width();
+  const auto last = [](int64_t wanted, int most) { return static_cast<int>(std::min<int64_t>(wanted, most)); };
+  return {static_cast<int>(window.min_x + x), static_cast<int>(window.min_y + y),
+          last(window.min_x + x + width - 1, window.max_x), last(window.min_y + y + rows_in_chunk() - 1, window.max_y)};
 }
 
 int64_t RawPart::bytes_per_pixel() const {

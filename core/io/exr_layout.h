@@ -87,6 +87,9 @@ struct Geometry {
   int64_t chunks_across() const;
   int64_t chunks_down() const;
   int64_t chunk_count() const { return chunks_across() * chunks_down(); }
+  int rows_in_chunk() const { return tiled() ? tile_height : kCompressions[static_cast<size_t>(compression)].rows; }
+  Window chunk_window(int64_t index) const;  ///< the pixels of a chunk; those at the borders have fewer
+  bool operator==(const Geometry&) const = default;
 };
 
 /// One part: its header, what the header says, and where its chunks lie.
@@ -117,9 +120,18 @@ ExrLayout parse_headers(const ByteSource& source, const std::string& path, int m
 /// still being written.
 void read_offsets(ExrLayout& layout, const ByteSource& source, const std::string& path);
 
-/// A chunk as it stands in the file, without the part number: coordinates, size, compressed pixels. Throws
-/// Iex::InputExc when it is not the chunk it should be.
-std::vector<char> read_chunk(const ExrLayout& layout, int part, int64_t index, const ByteSource& source);
+/// Where a chunk stands in its file, without the part number: coordinates and size, then the packed pixels.
+struct ChunkPlace {
+  int64_t start = 0;
+  int leader_bytes = 0, packed_bytes = 0;
+  int64_t bytes() const { return int64_t{leader_bytes} + packed_bytes; }
+};
+/// Throws Iex::InputExc when it is not the chunk it should be or does not lie in the file.
+ChunkPlace find_chunk(const ExrLayout& layout, int part, int64_t index, const ByteSource& source);
+
+/// Coordinates and size as they stand before the packed pixels of a chunk; `target` has room for 20 bytes. Returns how
+/// many it takes.
+int format_leader(const Geometry& geometry, int64_t index, int packed_bytes, char* target);
 
 /// Magic, version, headers; the offset tables come next.
 std::string format_headers(uint32_t version, std::span<const RawHeader> headers);

@@ -71,7 +71,7 @@ void update_header(PlannedPart& part, const Geometry& before, bool channels_chan
 }
 
 PlannedPart plan_part(const RawPart& raw, int index, std::span<const ChannelWrite> writes) {
-  PlannedPart part{index, raw.header, raw.geometry, raw.channels, true, {}};
+  PlannedPart part{index, raw.header, raw.geometry, raw.channels, true, {}, false};
   for (const ChannelWrite& write : writes)
     if (write.part == index) part.writes.push_back({write.channel, &write});
   return part;
@@ -85,7 +85,8 @@ Plan plan_all_parts(const ExrReader::Handles& source, std::span<const ChannelWri
     const std::string label = part_label(parts[i], i, parts.size());
     PlannedPart part = plan_part(parts[i], static_cast<int>(i), writes);
     if (!writes.empty()) drop_stale(part.header, label, plan.notes);
-    if (!part.writes.empty()) {
+    part.encode = options.recode || !part.writes.empty();
+    if (part.encode) {
       for (const PlannedPart::Write& write : part.writes)
         if (write.write->is_new) part.channels.push_back(RawChannel{write.channel});
       std::ranges::sort(part.channels, {}, &RawChannel::name);  // OpenEXR encodes them in this order
@@ -113,7 +114,7 @@ Plan plan_new_channels(const ExrReader::Handles& source, std::span<const Channel
   if (first == writes.end()) throw Error(ErrorCode::internal, cat("there is no new channel for ", source.info.path));
   const RawPart& raw = source.layout.parts[static_cast<size_t>(first->part)];
   Plan plan{2, {}, {}};
-  PlannedPart part{first->part, raw.header, raw.geometry, {}, false, {}};
+  PlannedPart part{first->part, raw.header, raw.geometry, {}, false, {}, true};
   std::set<std::string> used;
   for (const ChannelWrite& write : writes) {
     if (!write.is_new) continue;

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/io/exr_handles.h"
-#include "core/io/exr_pixels.h"
 #include "core/io/exr_writer.h"
 
 /// What write_exr will do, decided before a pixel is decoded.
@@ -22,7 +21,8 @@ struct PlannedPart {
     std::string channel;  ///< its name in the output
     const ChannelWrite* write;
   };
-  std::vector<Write> writes;  ///< empty: the chunks are copied
+  std::vector<Write> writes;
+  bool encode = false;  ///< else the chunks are copied
 };
 
 struct Plan {

@@ -1,15 +1,16 @@
 #include "core/io/exr_reader.h"
 
 #include <ImfHeader.h>
-#include <ImfInputPart.h>
-#include <ImfTiledInputPart.h>
+#include <ImfThreading.h>
 
 #include <algorithm>
 #include <array>
 #include <mutex>
 
-#include "core/io/exr_handles.h"
+#include "core/io/exr_codec.h"
+#include "core/io/exr_decode.h"
 #include "core/io/exr_limits.h"
+#include "core/io/exr_standard.h"
 
 namespace aftershade::io {
 
@@ -71,22 +72,11 @@ std::unique_ptr<ExrReader::Handles> open(const std::string& path, const ReadLimi
     describe(handles->layout, handles->info);
     check_parts(handles->layout, limits, handles->bytes.size(), handles->info);
     read_offsets(handles->layout, handles->bytes, path);
-    handles->file = std::make_unique<Imf::MultiPartInputFile>(handles->stream, Imf::globalThreadCount(), false);
+    handles->standard_headers = has_standard_headers(handles->layout);
+    if (!handles->standard_headers || limits.codecs == PixelCodecs::openexr) handles->openexr();
   });
   return handles;
 }
-
-/// The pixels that are decoded for a request: whole tiles, or whole rows.
-Window decode_window(const PartInfo& part, Window wanted) {
-  Window window = part.data_window;
-  if (part.tiled) return window;
-  const Window overlap = intersection(window, wanted);
-  window.min_y = overlap.min_y;
-  window.max_y = overlap.max_y;
-  return window;
-}
-
-bool covers(Window outer, Window inner) { return intersection(outer, inner) == inner; }
 
 /// Copies the pixels of `region` that both planes hold.
 void copy_window(ConstPlaneView source, Window source_window, PlaneView target, Window target_window, Window region) {
@@ -95,28 +85,6 @@ void copy_window(ConstPlaneView source, Window source_window, PlaneView target, 
     const float* from = source.row(y - source_window.min_y) + (both.min_x - source_window.min_x);
     std::copy_n(from, both.width(), target.row(y - target_window.min_y) + (both.min_x - target_window.min_x));
   }
-}
-
-using Requests = std::span<const ExrReader::Request>;
-
-/// Decodes each channel once: straight into its target when that holds all decoded pixels, else by way of a plane.
-void decode_requests(const ExrReader::Handles& handles, int part, Requests requests, Window wanted) {
-  const Window window = decode_window(handles.info.parts[static_cast<size_t>(part)], wanted);
-  const bool direct = covers(wanted, window);
-  std::vector<Plane> scratch(requests.size());
-  Imf::FrameBuffer buffer;
-  std::vector<ConstPlaneView> decoded(requests.size());
-  for (size_t i = 0; i < requests.size(); ++i) {
-    PlaneView plane = requests[i].target;
-    if (!direct) plane = scratch[i] = Plane(window.width(), window.height());
-    const Window covered = direct ? wanted : window;
-    decoded[i] = plane;
-    buffer.insert(requests[i].channel, slice(Imf::FLOAT, plane.data, covered, sizeof(float),
-                                             static_cast<size_t>(plane.stride) * sizeof(float)));
-  }
-  decode(handles, part, buffer, window.min_y, window.max_y);
-  for (size_t i = 0; !direct && i < requests.size(); ++i)
-    copy_window(decoded[i], window, requests[i].target, wanted, window);
 }
 }  // namespace
 
@@ -152,16 +120,13 @@ Imf::Slice slice(Imf::PixelType type, void* data, Window window, size_t x_stride
   return {type, reinterpret_cast<char*>(reinterpret_cast<uintptr_t>(data) - to_origin), x_stride, y_stride};
 }
 
-void decode(const ExrReader::Handles& handles, int part, const Imf::FrameBuffer& target, int first, int last) {
-  if (!handles.info.parts[static_cast<size_t>(part)].tiled) {
-    Imf::InputPart input(*handles.file, part);
-    input.setFrameBuffer(target);
-    input.readPixels(first, last);
-    return;
-  }
-  Imf::TiledInputPart input(*handles.file, part);
-  input.setFrameBuffer(target);
-  input.readTiles(0, input.numXTiles() - 1, 0, input.numYTiles() - 1);
+bool ExrReader::Handles::uses_codecs(int compression) const {
+  return limits.codecs == PixelCodecs::automatic && standard_headers && has_codec(compression);
+}
+
+Imf::MultiPartInputFile& ExrReader::Handles::openexr() const {
+  if (!file) file = std::make_unique<Imf::MultiPartInputFile>(stream, Imf::globalThreadCount(), false);
+  return *file;
 }
 
 ExrReader::ExrReader(const std::string& path, const ReadLimits& limits) : handles_(open(path, limits)) {}
@@ -215,25 +180,44 @@ std::vector<std::string> ExrReader::attribute_names(int part) const {
   return names;
 }
 
-void ExrReader::read(int part, std::span<const Request> requests, Window window) const {
-  const PartInfo& part_info = handles_->info.parts.at(static_cast<size_t>(part));
-  std::vector<Request> unique;
+// A channel that is asked for twice is decoded once and copied.
+void ExrReader::decode(int part, std::span<const Request> requests, Window window, PackedImage* keep) const {
+  const RowLayout layout(handles_->layout.parts.at(static_cast<size_t>(part)).channels);
+  std::vector<Wanted> wanted;
+  std::vector<size_t> source;  // of each request, in `wanted`
   std::vector<std::string> names;
   for (const Request& request : requests) {
-    if (part_info.find(request.channel) == nullptr)
+    const int channel = layout.find(request.channel);
+    if (channel < 0)
       throw Error(ErrorCode::no_input, cat(part_text(handles_->info, part), " has no channel ", request.channel));
-    if (std::ranges::find(names, request.channel) != names.end()) continue;
+    const auto index = static_cast<size_t>(channel);
+    source.push_back(static_cast<size_t>(std::ranges::find(wanted, index, &Wanted::channel) - wanted.begin()));
+    if (source.back() < wanted.size()) continue;
+    wanted.push_back({index, request.target, {}});
     names.push_back(request.channel);
-    unique.push_back(request);
   }
-  if (unique.empty() || intersection(part_info.data_window, window).empty()) return;
-  guarded(cat("channel ", join(names, ", "), " of ", part_text(handles_->info, part)),
-          [&] { decode_requests(*handles_, part, unique, window); });
-  for (const Request& request : requests) {
-    const auto first = std::ranges::find(unique, request.channel, &Request::channel);
-    if (first->target.data == request.target.data) continue;
-    copy_window(first->target, window, request.target, window, part_info.data_window);
+  const std::string subject = names.empty()
+                                  ? part_text(handles_->info, part)
+                                  : cat("channel ", join(names, ", "), " of ", part_text(handles_->info, part));
+  guarded(subject, [&] { decode_part(*handles_, part, wanted, window, keep); });
+  const Window data = handles_->info.parts[static_cast<size_t>(part)].data_window;
+  for (size_t i = 0; i < requests.size(); ++i) {
+    const Wanted& done = wanted[source[i]];
+    if (requests[i].found != nullptr) *requests[i].found = done.found;
+    if (requests[i].target.data != done.target.data) copy_window(done.target, window, requests[i].target, window, data);
   }
+}
+
+void ExrReader::read(int part, std::span<const Request> requests, Window window) const {
+  decode(part, requests, window, nullptr);
+}
+
+std::shared_ptr<const PackedImage> ExrReader::read_and_keep(int part, std::span<const Request> requests,
+                                                            Window window) const {
+  const RawPart& raw = handles_->layout.parts.at(static_cast<size_t>(part));
+  const auto all = std::make_shared<PackedImage>(raw.geometry.window, raw.channels);
+  decode(part, requests, window, all.get());
+  return all;
 }
 
 }  // namespace aftershade::io

@@ -40,16 +40,31 @@ struct FileInfo {
   std::vector<std::string> multi_view;  ///< of a single-part multi-view file; the first is the default view
 };
 
+/// Who decodes and encodes pixels. `openexr`: the OpenEXR library alone, to compare with and to find faults.
+enum class PixelCodecs { automatic, openexr };
+
 /// Limits that are checked before any pixel memory is taken (reliability 1.3).
 struct ReadLimits {
   int max_width = 65536, max_height = 65536;
   int max_parts = 64, max_channels = 1024;
   int64_t max_frame_bytes = int64_t{4} << 30;
+  PixelCodecs codecs = PixelCodecs::automatic;
 };
 
+/// Pixels that are no numbers.
+struct NotNumbers {
+  int64_t nan = 0, infinite = 0;
+  NotNumbers& operator+=(const NotNumbers& other) {
+    nan += other.nan;
+    infinite += other.infinite;
+    return *this;
+  }
+};
+struct PackedImage;
+
 /// An open EXR file. Every failure is Error(no_input) (missing, unreadable), Error(data) (not an EXR, damaged,
-/// truncated, deep, subsampled, mip- or rip-mapped, over the limits) with the path in the text. Not thread-safe; one a
-/// thread.
+/// truncated, deep, subsampled, mip- or rip-mapped, over the limits) with the path in the text. Not for several threads
+/// at once; reading spreads its work over all of them.
 class ExrReader {
  public:
   explicit ExrReader(const std::string& path, const ReadLimits& limits = {});
@@ -68,13 +83,17 @@ class ExrReader {
   struct Request {
     std::string channel;
     PlaneView target;
+    NotNumbers* found = nullptr;  ///< if not null, receives their count among the pixels that were read
   };
   void read(int part, std::span<const Request> requests, Window window) const;
+  /// The same, and returns the decoded pixels of the whole part, for write_exr.
+  std::shared_ptr<const PackedImage> read_and_keep(int part, std::span<const Request> requests, Window window) const;
 
-  struct Handles;  ///< the OpenEXR objects, for the writer in this folder
+  struct Handles;  ///< for the writer in this folder
   const Handles& handles() const { return *handles_; }
 
  private:
+  void decode(int part, std::span<const Request> requests, Window window, PackedImage* keep) const;
   std::unique_ptr<Handles> handles_;
 };
 

@@ -1,132 +1,107 @@
 #include "core/io/exr_writer.h"
 
+#include <Iex.h>
 #include <ImfHeader.h>
 #include <ImfMatrixAttribute.h>
 #include <ImfStringAttribute.h>
-#include <ImfThreading.h>
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
-#include "core/io/exr_handles.h"
-#include "core/io/exr_pixels.h"
-#include "core/io/exr_plan.h"
+#include "core/io/exr_decode.h"
+#include "core/io/exr_encode.h"
 #include "core/io/publish.h"
 
 namespace aftershade::io {
 
 namespace {
-/// Depth of pixels that nothing wrote is background; every other channel's is 0 (black, transparent, no motion, no id).
-float outside_value(const RawChannel& channel) {
-  const bool is_depth = channel.name == "Z" || channel.name.ends_with(".Z");
-  return is_depth && channel.type != PixelType::uint ? std::numeric_limits<float>::infinity() : 0.0F;
-}
-
-/// Decodes the channels that the source has into an image that covers its data window or more.
-void decode_source(const ExrReader::Handles& source, int part, PackedImage& image) {
-  const PartInfo& info = source.info.parts[static_cast<size_t>(part)];
-  Imf::FrameBuffer all = frame_buffer(image), existing;
-  for (const ChannelInfo& channel : info.channels) existing.insert(channel.name, all[channel.name]);
-  decode(source, part, existing, info.data_window.min_y, info.data_window.max_y);
-  for (PackedChannel& channel : image.channels)
-    fill_outside(channel, image.window, info.data_window, outside_value(channel.info));
-}
-
-/// The pixels of a part with its writes done.
-PackedImage changed_pixels(const ExrReader::Handles& source, const PlannedPart& part) {
-  PackedImage image{part.geometry.window, {}};
-  for (const RawChannel& channel : part.channels) image.add(channel);
-  if (part.copy_channels) decode_source(source, part.source_part, image);
-  for (const PlannedPart::Write& write : part.writes)
-    pack(write.write->pixels, write.write->window, *image.find(write.channel), image.window);
-  return image;
-}
-
-/// A header for encoding alone: what OpenEXR needs to know and the packed image does not say.
-Imf::Header encoding_header(const PlannedPart& part) {
-  Imf::Header header;
-  if (const auto level = value_of<float>(part.header.find("dwaCompressionLevel"), "float"))
-    header.dwaCompressionLevel() = *level;
-  return header;
-}
-
-/// A part encoded as a file of its own, whose chunks are taken over.
-struct EncodedPart {
-  std::vector<char> bytes;
-  ExrLayout layout;
+/// The output, chunk by chunk.
+struct FileBytesToBe {
+  std::string head;  ///< headers, then offset tables
+  std::vector<PartChunks> parts;
+  std::vector<std::span<const char>> pieces;  ///< head and chunks, as they lie in the file
 };
-EncodedPart encode_part(const ExrReader::Handles& source, const PlannedPart& part) {
-  PackedImage image = changed_pixels(source, part);
-  EncodedPart encoded{encode(image, part.geometry, encoding_header(part)), {}};
-  const MemoryBytes memory(encoded.bytes);
-  encoded.layout = parse_headers(memory, source.info.path, 1);
-  read_offsets(encoded.layout, memory, source.info.path);
-  return encoded;
-}
 
-/// Appends the chunks of one part in the order in which they lie in their file, and notes where they begin.
-void append_chunks(std::vector<char>& out, std::span<uint64_t> table, const ExrLayout& layout, int part,
-                   const ByteSource& source, std::optional<int32_t> part_number) {
-  const std::vector<uint64_t>& offsets = layout.parts[static_cast<size_t>(part)].offsets;
-  std::vector<int64_t> order(offsets.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, {}, [&](int64_t index) { return offsets[static_cast<size_t>(index)]; });
-  for (const int64_t index : order) {
-    table[static_cast<size_t>(index)] = out.size();
-    if (part_number) {
-      const std::string number = bytes_of(*part_number);
-      out.insert(out.end(), number.begin(), number.end());
-    }
-    const std::vector<char> chunk = read_chunk(layout, part, index, source);
-    out.insert(out.end(), chunk.begin(), chunk.end());
-  }
-}
-
-void append_part(std::vector<char>& out, std::span<uint64_t> table, const ExrReader::Handles& source,
-                 const PlannedPart& part, std::optional<int32_t> part_number) {
-  guarded(part_text(source.info, part.source_part), [&] {
-    if (part.writes.empty())
-      return append_chunks(out, table, source.layout, part.source_part, source.bytes, part_number);
-    const EncodedPart encoded = encode_part(source, part);
-    append_chunks(out, table, encoded.layout, 0, MemoryBytes(encoded.bytes), part_number);
+PartChunks chunks_of(const ExrReader::Handles& source, const PlannedPart& part, const PackedParts& decoded,
+                     std::optional<int32_t> part_number, bool recode) {
+  return guarded(part_text(source.info, part.source_part), [&] {
+    if (!part.encode) return copy_chunks(source.layout, part.source_part, source.bytes, part_number);
+    if (!part.copy_channels) return encode_chunks(source, part, nullptr, part_number, recode);
+    if (const auto found = decoded.find(part.source_part); found != decoded.end())
+      return encode_chunks(source, part, found->second.get(), part_number, recode);
+    const RawPart& raw = source.layout.parts[static_cast<size_t>(part.source_part)];
+    PackedImage image(raw.geometry.window, raw.channels);
+    decode_part(source, part.source_part, {}, {}, &image);
+    return encode_chunks(source, part, &image, part_number, recode);
   });
 }
 
-std::vector<char> assemble(const ExrReader::Handles& source, const Plan& plan) {
-  std::vector<RawHeader> headers;
-  int64_t chunks = 0;
-  for (const PlannedPart& part : plan.parts) {
-    headers.push_back(part.header);
-    chunks += part.geometry.chunk_count();
-  }
-  const std::string head = format_headers(plan.version, headers);
-  std::vector<uint64_t> table(static_cast<size_t>(chunks));
-  std::vector<char> out(head.begin(), head.end());
-  out.reserve(static_cast<size_t>(source.bytes.size()) + head.size());
-  out.resize(head.size() + table.size() * sizeof(uint64_t));
-  const bool numbered = (plan.version & ExrLayout::kMultiPart) != 0;
+/// Lays the chunks of each part behind those of the part before and notes where they begin.
+void lay_out(FileBytesToBe& file) {
+  size_t chunks = 0;
+  for (const PartChunks& part : file.parts) chunks += part.bytes.size();
+  std::vector<uint64_t> table(chunks);
+  uint64_t position = file.head.size() + table.size() * sizeof(uint64_t);
   std::span<uint64_t> rest(table);
-  for (size_t i = 0; i < plan.parts.size(); ++i) {
-    const auto count = static_cast<size_t>(plan.parts[i].geometry.chunk_count());
-    append_part(out, rest.first(count), source, plan.parts[i],
-                numbered ? std::optional(static_cast<int32_t>(i)) : std::nullopt);
-    rest = rest.subspan(count);
+  file.pieces.push_back({});  // the head
+  for (const PartChunks& part : file.parts) {
+    for (const int64_t index : part.order) {
+      const std::span<const char> chunk = part.bytes[static_cast<size_t>(index)];
+      rest[static_cast<size_t>(index)] = position;
+      position += chunk.size();
+      file.pieces.push_back(chunk);
+    }
+    rest = rest.subspan(part.bytes.size());
   }
-  std::memcpy(out.data() + head.size(), table.data(), table.size() * sizeof(uint64_t));
-  return out;
+  file.head.append(reinterpret_cast<const char*>(table.data()), table.size() * sizeof(uint64_t));
+  file.pieces[0] = file.head;
 }
 
-/// Opens the finished bytes as a reader would: every chunk must be there.
-void check_complete(std::span<const char> bytes, const std::string& path) {
+FileBytesToBe assemble(const ExrReader::Handles& source, const Plan& plan, const PackedParts& decoded, bool recode) {
+  std::vector<RawHeader> headers;
+  for (const PlannedPart& part : plan.parts) headers.push_back(part.header);
+  FileBytesToBe file{format_headers(plan.version, headers), {}, {}};
+  const bool numbered = (plan.version & ExrLayout::kMultiPart) != 0;
+  for (size_t i = 0; i < plan.parts.size(); ++i)
+    file.parts.push_back(chunks_of(source, plan.parts[i], decoded,
+                                   numbered ? std::optional(static_cast<int32_t>(i)) : std::nullopt, recode));
+  lay_out(file);
+  return file;
+}
+
+/// Pieces of a file, one behind the other.
+class PieceBytes final : public ByteSource {
+ public:
+  explicit PieceBytes(std::span<const std::span<const char>> pieces) : pieces_(pieces) {
+    for (const std::span<const char> piece : pieces_) ends_.push_back(size() + static_cast<int64_t>(piece.size()));
+  }
+  int64_t size() const override { return ends_.empty() ? 0 : ends_.back(); }
+  void read_at(int64_t offset, std::span<char> target) const override {
+    while (!target.empty()) {
+      const auto at = static_cast<size_t>(std::ranges::upper_bound(ends_, offset) - ends_.begin());
+      if (offset < 0 || at == ends_.size()) throw Iex::InputExc("the file ends too early");
+      const auto rest = static_cast<size_t>(ends_[at] - offset);
+      const std::span<char> part = target.first(std::min(target.size(), rest));
+      std::copy_n(pieces_[at].end() - static_cast<std::ptrdiff_t>(rest), part.size(), part.begin());
+      target = target.subspan(part.size());
+      offset += static_cast<int64_t>(part.size());
+    }
+  }
+
+ private:
+  std::span<const std::span<const char>> pieces_;
+  std::vector<int64_t> ends_;
+};
+
+/// Reads the finished bytes as a reader would, but for the pixels: every chunk must be there and lie in the file.
+void check_complete(std::span<const std::span<const char>> pieces, const std::string& path) {
   try {
-    const MemoryBytes memory(bytes);
-    ExrLayout layout = parse_headers(memory, path, std::numeric_limits<int>::max());
-    read_offsets(layout, memory, path);
-    SourceStream stream(memory, path);
-    const Imf::MultiPartInputFile file(stream, 0, false);
-    for (int part = 0; part < file.parts(); ++part)
-      if (!file.partComplete(part)) throw Iex::InputExc("chunks are missing");
+    const PieceBytes bytes(pieces);
+    ExrLayout layout = parse_headers(bytes, path, std::numeric_limits<int>::max());
+    read_offsets(layout, bytes, path);
+    for (size_t part = 0; part < layout.parts.size(); ++part)
+      for (size_t i = 0; i < layout.parts[part].offsets.size(); ++i)
+        find_chunk(layout, static_cast<int>(part), static_cast<int64_t>(i), bytes);
   } catch (const std::exception& error) {
     throw Error(ErrorCode::internal, cat("the file made for ", path, " is not valid: ", reason(error)));
   }
@@ -134,11 +109,11 @@ void check_complete(std::span<const char> bytes, const std::string& path) {
 }  // namespace
 
 std::vector<std::string> write_exr(const ExrReader& source, std::span<const ChannelWrite> writes,
-                                   const std::string& path, const WriteOptions& options) {
+                                   const std::string& path, const WriteOptions& options, const PackedParts& decoded) {
   const Plan plan = plan_output(source.handles(), writes, options);
-  const std::vector<char> bytes = assemble(source.handles(), plan);
-  check_complete(bytes, path);
-  publish(bytes, path);
+  const FileBytesToBe file = assemble(source.handles(), plan, decoded, options.recode);
+  check_complete(file.pieces, path);
+  publish(file.pieces, path, options.fsync);
   return plan.notes;
 }
 
@@ -148,13 +123,19 @@ void write_new_exr(const NewFile& file, const std::string& path) {
   header.displayWindow() = {{display.min_x, display.min_y}, {display.max_x, display.max_y}};
   for (const auto& [name, matrix] : file.matrices) header.insert(name, Imf::M44fAttribute(Imath::M44f(matrix)));
   for (const auto& [name, text] : file.texts) header.insert(name, Imf::StringAttribute(text));
-  PackedImage image{file.data_window, {}};
+  std::vector<RawChannel> channels;
+  for (const NewChannel& channel : file.channels) channels.push_back(RawChannel{channel.name, channel.type});
+  const PackedImage image(file.data_window, std::move(channels));
+  std::fill_n(image.pixels.data(), image.pixels.size(), '\0');
   for (const NewChannel& channel : file.channels)
-    pack(channel.pixels, file.data_window, image.add(RawChannel{channel.name, channel.type}), file.data_window);
+    for (int y = 0; y < file.data_window.height(); ++y)
+      pack_row(channel.type, channel.pixels.row(y), file.data_window.width(),
+               image.row(static_cast<size_t>(image.layout.find(channel.name)), file.data_window.min_y + y));
   Geometry geometry;
   geometry.compression = *compression_from_name("zip");
   const std::vector<char> bytes = guarded(path, [&] { return encode(image, geometry, header); });
-  check_complete(bytes, path);
+  const std::span<const char> piece(bytes);
+  check_complete({&piece, 1}, path);
   publish(bytes, path);
 }
 

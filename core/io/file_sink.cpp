@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/channel_names.h"
+#include "core/io/decoded_file.h"
 #include "core/io/file_source.h"
 
 namespace aftershade::io {
@@ -64,6 +65,23 @@ void add_channels(const FileInfo& info, const Frame& frame, bool alone, std::vec
 
 }  // namespace
 
+namespace {
+
+/// The open file that came with the frames, and all their decoded parts; null when they have none of this file.
+std::shared_ptr<const DecodedFile> file_of(const std::vector<Frame>& views, const std::string& path,
+                                           PackedParts& parts) {
+  std::shared_ptr<const DecodedFile> first;
+  for (const Frame& frame : views) {
+    const auto file = std::dynamic_pointer_cast<const DecodedFile>(frame.file);
+    if (!file || file->reader.info().path != path) continue;
+    parts.insert(file->parts.begin(), file->parts.end());
+    if (!first) first = file;
+  }
+  return first;
+}
+
+}  // namespace
+
 FileSink::FileSink(const Sequence& sources, SinkOptions options) : sources_(sources), options_(std::move(options)) {}
 
 void FileSink::write(int number, const std::vector<Frame>& views) {
@@ -71,11 +89,14 @@ void FileSink::write(int number, const std::vector<Frame>& views) {
   if (!source) throw Error(ErrorCode::internal, cat("frame ", number, " has no source file"));
   const std::string target = options_.path(number);
   with_context(cat("frame ", number, " (", target, ")"), [&] {
-    const ExrReader file(*source, options_.limits);
+    PackedParts decoded;
+    const auto kept = file_of(views, *source, decoded);
+    std::optional<ExrReader> opened;
+    const ExrReader& file = kept ? kept->reader : opened.emplace(*source, options_.limits);
     std::vector<ChannelWrite> writes;
     for (const Frame& frame : views) add_layers(frame, writes);
     for (const Frame& frame : views) add_channels(file.info(), frame, options_.write.only_new_channels, writes);
-    for (const std::string& note : write_exr(file, writes, target, options_.write))
+    for (const std::string& note : write_exr(file, writes, target, options_.write, decoded))
       if (options_.on_note) options_.on_note(number, note);
   });
 }

@@ -7,6 +7,7 @@
 #include "core/base/text.h"
 #include "core/io/channel_names.h"
 #include "core/io/conversions.h"
+#include "core/io/decoded_file.h"
 #include "core/io/exr_limits.h"
 #include "core/io/source_state.h"
 
@@ -36,14 +37,13 @@ struct FileSource::State {
   void check(const FileInfo& frame, const ViewState& view) const;
   /// Files of one frame: the frame's own, and those of the siblings that hold roles.
   struct Files {
-    explicit Files(ExrReader own) : frame(std::move(own)) {}
     const ExrReader* find(int sibling) const {
       if (sibling < 0) return &frame;
       const auto found = siblings.find(sibling);
       return found == siblings.end() ? nullptr : found->second.get();
     }
-    ExrReader frame;
-    std::map<int, std::unique_ptr<ExrReader>> siblings;
+    const ExrReader& frame;
+    std::map<int, std::unique_ptr<ExrReader>> siblings{};
   };
   void open_siblings(Files& files, const ViewState& offer, RoleSet asked, int number) const;
   void open_sibling(Files& files, const RoleBinding& binding, const std::string& path) const;
@@ -158,7 +158,8 @@ std::vector<const RoleBinding*> FileSource::State::prepare_roles(Frame& frame, c
     auto& planes = frame.planes(binding.role);
     planes.resize(binding.channels.size());
     for (size_t i = 0; i < planes.size(); ++i)
-      reader.add(*files.find(binding.sibling), binding.channels[i], planes[i], is_depth(binding.role));
+      reader.add(*files.find(binding.sibling), binding.channels[i], planes[i], outside(binding.role),
+                 is_depth(binding.role));
   }
   return roles;
 }
@@ -208,21 +209,20 @@ void prepare_layers(Frame& frame, const ViewState& view, const ExrReader& file, 
   }
   for (size_t i = 0; i < frame.layers.size(); ++i)
     for (size_t c = 0; c < frame.layers[i].planes.size(); ++c)
-      reader.add(file, view.layers[i].binding.channels[c], frame.layers[i].planes[c], false);
+      reader.add(file, view.layers[i].binding.channels[c], frame.layers[i].planes[c], 0.0F);
 }
 
 /// The same for named channels.
 void prepare_named(Frame& frame, const ViewState& view, const ExrReader& file, PlaneReader& reader) {
-  for (const NamedChoice& named : view.named) reader.add(file, named.ref, frame.named[named.name], false);
+  for (const NamedChoice& named : view.named) reader.add(file, named.ref, frame.named[named.name], kNan);
 }
 
-void allocate(Frame& frame, const std::vector<const RoleBinding*>& roles) {
-  for (const RoleBinding* binding : roles)
-    for (Plane& plane : frame.planes(binding->role))
-      plane = Plane(frame.window.width(), frame.window.height(), outside(binding->role));
-  for (Layer& layer : frame.layers)
-    for (Plane& plane : layer.planes) plane = Plane(frame.window.width(), frame.window.height(), 0.0F);
-  for (auto& [name, plane] : frame.named) plane = Plane(frame.window.width(), frame.window.height(), kNan);
+/// The parts that a sink will write again, as far as this view tells: still without pixels.
+PackedParts parts_to_keep(const Frame& frame, const ViewState& view) {
+  PackedParts parts{{frame.part, nullptr}};
+  for (const Layer& layer : frame.layers) parts[layer.part] = nullptr;
+  for (const NamedChoice& named : view.named) parts[named.ref.part] = nullptr;
+  return parts;
 }
 
 }  // namespace
@@ -240,7 +240,8 @@ std::optional<Frame> FileSource::load(int number, const std::string& view, RoleS
   return with_context(cat("frame ", number, " (", *path, ")"), [&]() -> std::optional<Frame> {
     const State& state = *state_;
     const ViewState& offer = state.view(view);
-    State::Files files{ExrReader(*path, state.options.limits)};
+    const auto file = std::make_shared<DecodedFile>(ExrReader(*path, state.options.limits));
+    State::Files files{file->reader};
     state.check(files.frame.info(), offer);
     std::vector<std::string> notes;
     state.open_siblings(files, offer, asked, number);
@@ -249,8 +250,12 @@ std::optional<Frame> FileSource::load(int number, const std::string& view, RoleS
     const auto roles = state.prepare_roles(frame, offer, asked, files, reader, notes);
     if (with_layers) prepare_layers(frame, offer, files.frame, reader);
     prepare_named(frame, offer, files.frame, reader);
-    allocate(frame, roles);
-    const NanReport report = reader.read(frame.window, state.options.nan_is_error);
+    if (with_layers && state.options.keep_file) {
+      file->parts = parts_to_keep(frame, offer);
+      frame.file = file;
+    }
+    const NanReport report = reader.read(frame.window, state.options.nan_is_error, &file->reader, &file->parts);
+    std::erase_if(file->parts, [](const auto& part) { return part.second == nullptr; });
     if (on_nan && !(report.nan.empty() && report.infinite.empty())) on_nan(number, report);
     for (const RoleBinding* binding : roles) state.convert(frame, *binding);
     for (const std::string& note : notes)

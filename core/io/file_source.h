@@ -39,6 +39,8 @@ struct SourceOptions {
   /// Channels that stages filter (pipeline::named_channels), without view; Frame::named.
   std::vector<std::string> named_channels;
   bool nan_is_error = false;
+  /// Frames with layers carry Frame::file: the decoded pixels of the parts that will be written again.
+  bool keep_file = false;
   ReadLimits limits;
 };
 
@@ -96,10 +98,12 @@ struct SinkOptions {
 /// Frames to EXR files: the source frame's file with changed layers and added channels (write_exr). A changed layer is
 /// written where its data window and the planes overlap; added channels cover the data window of Frame::part, or what
 /// it grows to, and overwrite channels of their name that the part has. Those that are named channels of the file stay
-/// in their own part and data window, and are left out of files with new channels alone.
+/// in their own part and data window, and are left out of files with new channels alone. What Frame::file holds of the
+/// source is not read again.
 class FileSink final : public FrameSink {
  public:
   FileSink(const Sequence& sources, SinkOptions options);
+  /// May be called by several threads at once, if SinkOptions::path and on_note may.
   void write(int number, const std::vector<Frame>& views) override;
 
  private:

@@ -105,18 +105,24 @@ int write_all(int descriptor, std::span<const char> bytes) {
     if (count < 0 && errno != EINTR) return errno;
     if (count > 0) bytes = bytes.subspan(static_cast<size_t>(count));
   }
+  return 0;
+}
+
+int flush(int descriptor) {
   // Some file systems (pipes of the proc kind) have nothing to flush.
   return ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS ? 0 : errno;
 }
 }  // namespace
 
-void publish(std::span<const char> bytes, const std::string& path) {
+void publish(std::span<const std::span<const char>> pieces, const std::string& path, bool fsync) {
   check_target(path);
   const Place place = place_of(path);
   const std::string temporary = temporary_path(place);
   const Listed listed(temporary);
   const int descriptor = create(temporary, place, path);
-  int error = write_all(descriptor, bytes);
+  int error = 0;
+  for (size_t i = 0; i < pieces.size() && error == 0; ++i) error = write_all(descriptor, pieces[i]);
+  if (error == 0 && fsync) error = flush(descriptor);
   // A network file system may report a full disk only here; the descriptor is gone whatever close says.
   if (::close(descriptor) != 0 && error == 0 && errno != EINTR) error = errno;
   if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
@@ -124,6 +130,8 @@ void publish(std::span<const char> bytes, const std::string& path) {
   ::unlink(temporary.c_str());
   throw cannot_write(path, error);
 }
+
+void publish(std::span<const char> bytes, const std::string& path) { publish({&bytes, 1}, path, true); }
 
 void remove_temporaries() noexcept {
   const int saved = errno;

@@ -63,17 +63,22 @@ std::string window_text(Window window);  ///< "(0, 0)-(1919, 1079)"
 /// Channels to decode into planes that all cover one window.
 class PlaneReader {
  public:
-  void add(const ExrReader& file, const ChannelRef& ref, Plane& target, bool infinity_is_meant);
-  /// Each part is decoded once. Counts pixels of the data windows that are no numbers.
-  NanReport read(Window window, bool nan_is_error) const;
+  /// `outside`: what the plane holds where the file has no pixel.
+  void add(const ExrReader& file, const ChannelRef& ref, Plane& target, float outside, bool infinity_is_meant = false);
+  /// Makes the planes. Each part is decoded once; those that have an entry in `keep`, of `kept_file`, are left there.
+  /// Counts pixels of the data windows that are no numbers.
+  NanReport read(Window window, bool nan_is_error, const ExrReader* kept_file = nullptr,
+                 PackedParts* keep = nullptr) const;
 
  private:
   struct Job {
     const ExrReader* file;
     ChannelRef ref;
     Plane* target;
+    float outside;
     bool infinity_is_meant;
   };
+  NanReport report(const std::vector<NotNumbers>& found, bool nan_is_error) const;
   std::vector<Job> jobs_;
 };
 
