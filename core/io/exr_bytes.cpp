@@ -36,7 +36,7 @@ using Block = hn::CappedTag<uint8_t, kBlock>;
 
 /// Lane i becomes the sum of lanes 0 to i.
 template <class V>
-V prefix_sums(V v) {
+HWY_INLINE V prefix_sums(V v) {
   const Block d;
   v = hn::Add(v, hn::ShiftLeftBytes<1>(d, v));
   v = hn::Add(v, hn::ShiftLeftBytes<2>(d, v));
@@ -104,7 +104,7 @@ using WordVec = hn::Vec<Words>;
 
 /// Of any alignment.
 template <class D>
-hn::Vec<D> load(D d, const char* at) {
+HWY_INLINE hn::Vec<D> load(D d, const char* at) {
 #if HWY_TARGET == HWY_SCALAR
   hn::TFromD<D> value;
   std::memcpy(&value, at, sizeof value);
@@ -114,7 +114,7 @@ hn::Vec<D> load(D d, const char* at) {
 #endif
 }
 template <class D>
-void store(hn::Vec<D> v, D d, char* at) {
+HWY_INLINE void store(hn::Vec<D> v, D d, char* at) {
 #if HWY_TARGET == HWY_SCALAR
   const auto value = hn::GetLane(v);
   std::memcpy(at, &value, sizeof value);
@@ -127,7 +127,7 @@ void store(hn::Vec<D> v, D d, char* at) {
 constexpr uint32_t kInfinity = 0x7F800000, kLargestHalf = 0x477FE000, kSmallestNormalHalf = 0x38800000;
 
 /// Halves in the lower 16 bits to floats, all exact. Denormal halves are whole numbers of 2^-24.
-WordVec half_to_float(WordVec half) {
+HWY_INLINE WordVec half_to_float(WordVec half) {
   const Words d;
   const auto magnitude = hn::And(half, hn::Set(d, 0x7FFFU)), sign = hn::ShiftLeft<16>(hn::Sub(half, magnitude));
   constexpr uint32_t kBias = 112U << 23;  // of the exponent of a float over that of a half
@@ -144,7 +144,7 @@ WordVec half_to_float(WordVec half) {
 
 /// The other way: nearest even; finite values beyond the largest half become it, NaNs keep the upper bits of their
 /// payload.
-WordVec float_to_half(WordVec bits) {
+HWY_INLINE WordVec float_to_half(WordVec bits) {
   const Words d;
   const hn::RebindToSigned<Words> di;
   const auto magnitude = hn::And(bits, hn::Set(d, 0x7FFFFFFFU));
@@ -168,7 +168,7 @@ WordVec float_to_half(WordVec bits) {
   return hn::Or(half, sign);
 }
 
-NotNumbers count_not_numbers(WordVec bits, size_t lanes) {
+HWY_INLINE NotNumbers count_not_numbers(WordVec bits, size_t lanes) {
   const hn::RebindToSigned<Words> d;
   const auto at = hn::BitCast(d, hn::And(bits, hn::Set(Words(), 0x7FFFFFFFU)));
   const auto bad = hn::Gt(at, hn::Set(d, static_cast<int32_t>(kInfinity - 1)));
@@ -203,7 +203,7 @@ NotNumbers to_floats(const char* stored, int count, float* pixels, const Convert
   return bad += count_not_numbers(bits, rest);
 }
 
-WordVec load_halves(const char* stored) { return hn::PromoteTo(Words(), load(Halves(), stored)); }
+HWY_INLINE WordVec load_halves(const char* stored) { return hn::PromoteTo(Words(), load(Halves(), stored)); }
 NotNumbers halves_to_floats(const char* stored, int count, float* pixels) {
   return to_floats<uint16_t>(stored, count, pixels, [](const char* at) { return half_to_float(load_halves(at)); });
 }
@@ -212,7 +212,7 @@ NotNumbers singles_to_floats(const char* stored, int count, float* pixels) {
 }
 
 /// One vector; returns whether a bit has changed.
-bool pack_halves(const float* pixels, char* stored) {
+HWY_INLINE bool pack_halves(const float* pixels, char* stored) {
   const Words d;
   const hn::RebindToSigned<Words> di;
   const auto bits = hn::BitCast(d, hn::LoadU(Floats(), pixels));

@@ -270,6 +270,7 @@ class RunDeflate::Writer {
 
 /// Finds the blocks of all stretches; false when they are not noisy enough to be better off here.
 bool RunDeflate::find_blocks(std::span<const uint8_t> bytes, std::span<const uint32_t> lengths, size_t kinds) {
+  constexpr size_t kLargestBlock = 1 << 20;
   constexpr double kNoisy = 0.25;     // of their size is what the first rows at least take
   constexpr double kBlockCost = 150;  // bits that a block less may cost: time is worth something, too
   tokens_.clear();
@@ -291,7 +292,7 @@ bool RunDeflate::find_blocks(std::span<const uint8_t> bytes, std::span<const uin
     if (!blocks_.empty()) {
       Block both = blocks_.back();
       both.add(next);
-      if (both.bits() <= blocks_.back().bits() + next.bits() + kBlockCost) {
+      if (both.bytes <= kLargestBlock && both.bits() <= blocks_.back().bits() + next.bits() + kBlockCost) {
         blocks_.back() = both;
         continue;
       }
