@@ -15,6 +15,9 @@ namespace aftershade::lanes::HWY_NAMESPACE {
 struct Quad {
   Float a, b, c, d;
 };
+struct TwoQuads {
+  Quad first, second;
+};
 
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_SSE4
 namespace detail {
@@ -64,12 +67,24 @@ HWY_INLINE void store_blocks(float* base, int stride, Float v) {
 
 }  // namespace detail
 
+namespace detail {
+HWY_INLINE Quad load_at(const float* base, const int32_t* at) {
+  return transposed(load_blocks(base, at), load_blocks(base, at + 1), load_blocks(base, at + 2),
+                    load_blocks(base, at + 3));
+}
+}  // namespace detail
+
 /// base[index] to base[index + 3], lane by lane.
 HWY_INLINE Quad load_records(const float* base, Int index) {
   alignas(64) int32_t at[kLanes];
   hn::Store(index.v, IntTag(), at);
-  return detail::transposed(detail::load_blocks(base, at), detail::load_blocks(base, at + 1),
-                            detail::load_blocks(base, at + 2), detail::load_blocks(base, at + 3));
+  return detail::load_at(base, at);
+}
+/// base[index] to base[index + 7].
+HWY_INLINE TwoQuads load_long_records(const float* base, Int index) {
+  alignas(64) int32_t at[kLanes];
+  hn::Store(index.v, IntTag(), at);
+  return {detail::load_at(base, at), detail::load_at(base + 4, at)};
 }
 
 /// The first lane to base[0] to base[3], the second from base[stride] on, and so on; `stride` >= 4.
@@ -83,6 +98,10 @@ HWY_INLINE void store_records(float* base, int stride, Quad q) {
 #else
 inline Quad load_records(const float* base, Int index) {
   return {gather(base, index), gather(base + 1, index), gather(base + 2, index), gather(base + 3, index)};
+}
+
+inline TwoQuads load_long_records(const float* base, Int index) {
+  return {load_records(base, index), load_records(base + 4, index)};
 }
 
 inline void store_records(float* base, int stride, Quad q) {

@@ -1,7 +1,13 @@
-#pragma once
+#if defined(AFTERSHADE_CORE_TEMPORAL_ACCUMULATION_KERNEL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AFTERSHADE_CORE_TEMPORAL_ACCUMULATION_KERNEL_H
+#undef AFTERSHADE_CORE_TEMPORAL_ACCUMULATION_KERNEL_H
+#else
+#define AFTERSHADE_CORE_TEMPORAL_ACCUMULATION_KERNEL_H
+#endif
 #include "core/temporal/temporal_kernel.h"
 
-namespace aftershade::temporal {
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::temporal::HWY_NAMESPACE {
 
 struct LookUpRow {
   HistoryView before;
@@ -78,4 +84,6 @@ inline void pack_row(const PackRow& row) {
   }
 }
 
-}  // namespace aftershade::temporal
+}  // namespace aftershade::temporal::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

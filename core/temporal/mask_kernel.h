@@ -1,9 +1,17 @@
-#pragma once
+#if defined(AFTERSHADE_CORE_TEMPORAL_MASK_KERNEL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AFTERSHADE_CORE_TEMPORAL_MASK_KERNEL_H
+#undef AFTERSHADE_CORE_TEMPORAL_MASK_KERNEL_H
+#else
+#define AFTERSHADE_CORE_TEMPORAL_MASK_KERNEL_H
+#endif
+#include "core/filter/lane_geometry.h"
 #include "core/image/plane.h"
-#include "core/simd/lanes.h"
 
-namespace aftershade::temporal {
-using namespace lanes;
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::temporal::HWY_NAMESPACE {
+
+using namespace lanes::HWY_NAMESPACE;
+using namespace filter::HWY_NAMESPACE;
 
 /// dilatedMask = all_{n x n}(continuityMask) (seed 000, "Two Half-Res Passes"), one axis at a time: the least value
 /// over offsets first to last. Clamped indices repeat texels of the same neighbourhood, so the outside never counts.
@@ -13,12 +21,12 @@ struct LeastAlongRow {
   float* target;
 };
 inline void least_along_row(const LeastAlongRow& row) {
-  for (int x = 0; x < row.width; x += kLanes) {
+  for_each_vector(row.width, -row.first, row.last, [&](int x, auto inside) {
     Float least = 1.0F;
     for (int offset = row.first; offset <= row.last; ++offset)
-      least = min(least, gather(row.source, clamp(iota(x + offset), 0, row.width - 1)));
+      least = min(least, Columns<inside()>(x + offset, row.width)(row.source));
     store(row.target + x, least);
-  }
+  });
 }
 
 struct LeastAcrossRows {
@@ -34,4 +42,6 @@ inline void least_across_rows(const LeastAcrossRows& row) {
   }
 }
 
-}  // namespace aftershade::temporal
+}  // namespace aftershade::temporal::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

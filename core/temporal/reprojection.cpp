@@ -1,18 +1,81 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/temporal/reprojection.cpp"  // this file, compiled once a SIMD target
 #include "core/temporal/reprojection.h"
 
+#include <hwy/foreach_target.h>
+
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "core/parallel/rows.h"
+#include "core/temporal/history_share.h"
 #include "core/temporal/reprojection_kernel.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::temporal::HWY_NAMESPACE {
+
+void past_row(const ReprojectionRow& row, const float* not_needed, float* x, float* y, float* depth) {
+  reprojection_row(row, not_needed, x, y, depth);
+}
+
+void past_rows(const Reprojection& reprojection, Reprojected& out) {
+  for_rows(out.x.height(), [&](int y) {
+    reprojection_row(reprojection.row(y), nullptr, out.x.row(y), out.y.row(y), out.depth.row(y));
+  });
+}
+
+int64_t sum_of_lanes(Float v) {
+  std::array<float, kLanes> lanes;
+  store(lanes.data(), v);
+  return static_cast<int64_t>(std::accumulate(lanes.begin(), lanes.end(), 0.0F));
+}
+
+/// `past(x)`: of pixels x, x + 1, ...
+template <class Past>
+HistoryShare share_of_row(const float* depth, int width, ConstPlaneView stored, const Window& window,
+                          const Past& past) {
+  Float surface = 0.0F, lost = 0.0F;
+  for (int x = 0; x < width; x += kLanes)
+    count_lost({stored, window}, load(depth + x), past(x), iota(x) < Int(width), surface, lost);
+  return {sum_of_lanes(surface), sum_of_lanes(lost)};
+}
+
+HistoryShare share_of_past(const Reprojection& reprojection, int y, ConstPlaneView stored, const Window& window) {
+  const ReprojectionRow row = reprojection.row(y);
+  return share_of_row(row.depth, row.width, stored, window, [&](int x) { return past_at(row, x); });
+}
+
+HistoryShare share_of_planes(ConstPlaneView depth, const Reprojected& past, int y, ConstPlaneView stored,
+                             const Window& window) {
+  return share_of_row(depth.row(y), depth.width, stored, window, [&](int x) {
+    return Point{load(past.x.row(y) + x), load(past.y.row(y) + x), load(past.depth.row(y) + x)};
+  });
+}
+
+}  // namespace aftershade::temporal::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace aftershade::temporal {
 
 namespace {
 
+HWY_EXPORT(past_row);
+HWY_EXPORT(past_rows);
+HWY_EXPORT(share_of_past);
+HWY_EXPORT(share_of_planes);
+
 bool is_surface(float depth) { return std::isfinite(depth) && depth > 0; }
+
+double total_share(const std::vector<HistoryShare>& rows) {
+  HistoryShare total;
+  for (const HistoryShare& row : rows) total.surface += row.surface, total.lost += row.lost;
+  return total.surface > 0 ? static_cast<double>(total.lost) / static_cast<double>(total.surface) : 0;
+}
 
 }  // namespace
 
@@ -21,28 +84,29 @@ Reprojection::Reprojection(const ReprojectionInput& input, ReprojectionSource so
       vectors_(source == ReprojectionSource::automatic && !input.mv_prev_x.empty() && !input.mv_prev_y.empty()),
       agreement_px_(agreement_px) {}
 
-void Reprojection::row(int y, const float* not_needed, float* x, float* y_before, float* depth) const {
+ReprojectionRow Reprojection::row(int y) const {
   const double centre_y = input_.window.min_y + y + 0.5;
   ReprojectionRow row{};
   row.depth = input_.depth.row(y);
   if (vectors_) row.mv_x = input_.mv_prev_x.row(y), row.mv_y = input_.mv_prev_y.row(y);
-  row.not_needed = not_needed;
-  row.camera = input_.camera.has_value();
-  if (row.camera) row.motion = filter::static_motion(*input_.camera, centre_y);
+  if (input_.camera) row.camera = filter::static_motion(*input_.camera, centre_y);
   row.holes_are_invalid = input_.holes_are_invalid;
   row.agreement_px = agreement_px_;
   row.width = input_.depth.width;
   row.min_x = input_.window.min_x;
   row.centre_y = static_cast<float>(centre_y);
-  row.out_x = x, row.out_y = y_before, row.out_z = depth;
-  reprojection_row(row);
+  return row;
+}
+
+void Reprojection::row(int y, const float* not_needed, float* x, float* y_before, float* depth) const {
+  HWY_DYNAMIC_DISPATCH(past_row)(row(y), not_needed, x, y_before, depth);
 }
 
 Reprojected reproject(const ReprojectionInput& input, ReprojectionSource source, float agreement_px) {
   const int width = input.depth.width, height = input.depth.height;
-  const Reprojection reprojection(input, source, agreement_px);
-  Reprojected out{Plane(width, height), Plane(width, height), Plane(width, height)};
-  for_rows(height, [&](int y) { reprojection.row(y, nullptr, out.x.row(y), out.y.row(y), out.depth.row(y)); });
+  const auto blank = [&] { return Plane::for_overwrite(width, height); };
+  Reprojected out{blank(), blank(), blank()};
+  HWY_DYNAMIC_DISPATCH(past_rows)(Reprojection(input, source, agreement_px), out);
   return out;
 }
 
@@ -70,46 +134,13 @@ VelocityPlanes scatter_velocity(ConstPlaneView mv_next_x, ConstPlaneView mv_next
   return out;
 }
 
-namespace {
-
-/// Surface pixels of a row, and those of them without a past.
-struct Share {
-  int64_t surface = 0, lost = 0;
-};
-
-Share row_without_history(const float* depth, int width, const float* x, const float* y, const float* expected,
-                          ConstPlaneView stored_depth, const Window& w) {
-  constexpr float kOtherDepth = 0.1F;
-  Share share;
-  for (int i = 0; i < width; ++i) {
-    if (!is_surface(depth[i])) continue;
-    ++share.surface;
-    const float px = std::floor(x[i]), py = std::floor(y[i]);
-    const bool inside = px >= static_cast<float>(w.min_x) && px <= static_cast<float>(w.max_x) &&
-                        py >= static_cast<float>(w.min_y) && py <= static_cast<float>(w.max_y);
-    const float stored = inside ? stored_depth(static_cast<int>(px) - w.min_x, static_cast<int>(py) - w.min_y) : 0;
-    const bool same = stored > 0 && std::abs(1 - expected[i] / stored) < kOtherDepth;
-    share.lost += same ? 0 : 1;
-  }
-  return share;
-}
-
-double total_share(const std::vector<Share>& rows) {
-  Share total;
-  for (const Share& row : rows) total.surface += row.surface, total.lost += row.lost;
-  return total.surface > 0 ? static_cast<double>(total.lost) / static_cast<double>(total.surface) : 0;
-}
-
-}  // namespace
-
 double share_without_history(ConstPlaneView depth, const Reprojected& reprojected, ConstPlaneView stored_depth,
                              Window stored_window) {
   if (stored_depth.empty()) return 0;
-  std::vector<Share> shares(static_cast<size_t>(depth.height));
+  std::vector<HistoryShare> shares(static_cast<size_t>(depth.height));
   for_rows(depth.height, [&](int y) {
     shares[static_cast<size_t>(y)] =
-        row_without_history(depth.row(y), depth.width, reprojected.x.row(y), reprojected.y.row(y),
-                            reprojected.depth.row(y), stored_depth, stored_window);
+        HWY_DYNAMIC_DISPATCH(share_of_planes)(depth, reprojected, y, stored_depth, stored_window);
   });
   return total_share(shares);
 }
@@ -119,16 +150,14 @@ double share_without_history(ConstPlaneView depth, Window window, const Reprojec
   constexpr int kLowWindow = 64, kEvery = 8;
   if (stored_depth.empty()) return 0;
   const int every = depth.height < kLowWindow ? 1 : kEvery, first = (window.min_y % every + every) % every;
-  std::vector<Share> shares(static_cast<size_t>(depth.height));
+  std::vector<HistoryShare> shares(static_cast<size_t>(depth.height));
   for_rows((depth.height + every - 1) / every, [&](int index) {
     const int y = (every - first) % every + index * every;
     if (y >= depth.height) return;
-    Plane past(depth.width, 3);
-    reprojection.row(y, nullptr, past.row(0), past.row(1), past.row(2));
-    shares[static_cast<size_t>(y)] = row_without_history(depth.row(y), depth.width, past.row(0), past.row(1),
-                                                         past.row(2), stored_depth, stored_window);
+    shares[static_cast<size_t>(y)] = HWY_DYNAMIC_DISPATCH(share_of_past)(reprojection, y, stored_depth, stored_window);
   });
   return total_share(shares);
 }
 
 }  // namespace aftershade::temporal
+#endif

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "core/camera/camera.h"
+#include "core/filter/static_motion.h"
 #include "core/image/plane.h"
 #include "core/image/window.h"
 
@@ -25,10 +26,22 @@ struct ReprojectionInput {
   bool holes_are_invalid = false;
 };
 
+/// What the past of one row is made of; its formulas are in reprojection_kernel.h.
+struct ReprojectionRow {
+  const float* depth;
+  const float *mv_x, *mv_y;                    ///< null: no vectors
+  std::optional<filter::StaticMotion> camera;  ///< none: unknown
+  bool holes_are_invalid;
+  float agreement_px;
+  int width, min_x;
+  float centre_y;  ///< of the row, absolute
+};
+
 /// The past of a frame, one row at a time, for filters that need no planes of it.
 class Reprojection {
  public:
   Reprojection(const ReprojectionInput& input, ReprojectionSource source, float agreement_px);
+  ReprojectionRow row(int y) const;
   /// Row y of what reproject() gives, into rows with Plane's padding. Pixels where `not_needed` is 1 may be left as
   /// they are; it may be null.
   void row(int y, const float* not_needed, float* x, float* y_before, float* depth) const;

@@ -1,16 +1,83 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/temporal/selective_temporal.cpp"  // this file, compiled once a SIMD target
 #include "core/temporal/selective_temporal.h"
+
+#include <hwy/foreach_target.h>
 
 #include <algorithm>
 
 #include "core/base/error.h"
 #include "core/parallel/rows.h"
 #include "core/temporal/continuity_kernel.h"
+#include "core/temporal/filter_planes.h"
 #include "core/temporal/mask_kernel.h"
+#include "core/temporal/reprojection_kernel.h"
 #include "core/temporal/temporal_kernel.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::temporal::HWY_NAMESPACE {
+
+Plane continuity(const SelectiveTemporalParams& params, const filter::SampleGrid& grid,
+                 const filter::Surface& surface) {
+  const ContinuityParams kernel{
+      GridSamples(grid), Lens(surface.projection),
+      EdgeTolerance(params.distance_m, params.distance_footprints, grid.step, surface.projection)};
+  Plane mask = Plane::for_overwrite(grid.width(), grid.height());
+  for_rows(mask.height(), [&](int y) { continuity_row(kernel, y, mask.row(y)); });
+  return mask;
+}
+
+Plane least_around(ConstPlaneView mask, int n) {
+  const int first = -(n / 2), last = first + n - 1;  // seed 000's 4x4: -2 to +1 (algorithms 14, item 6)
+  Plane along = Plane::for_overwrite(mask.width, mask.height), out = Plane::for_overwrite(mask.width, mask.height);
+  for_rows(mask.height, [&](int y) { least_along_row({mask.row(y), mask.width, first, last, along.row(y)}); });
+  for_rows(mask.height, [&](int y) {
+    least_across_rows({along, std::max(y + first, 0), std::min(y + last, mask.height - 1), out.row(y)});
+  });
+  return out;
+}
+
+StableRow stable_row(const StabilityMask& mask, int y) {
+  return {mask.texels.row((y - mask.origin_y) / mask.step), mask.step == 2 ? 1 : 0, mask.origin_x};
+}
+
+/// `past_of(y)`: what temporal_row() takes as the past of row y.
+template <class PastOf>
+void filter_rows(const FilterInput& in, const FilterOutput& to, const PastOf& past_of) {
+  const SelectiveTemporalParams& params = in.params;
+  for_rows(in.ao.height, [&](int y) {
+    const StableRow stable = params.selective ? stable_row(in.mask, y) : StableRow{};
+    temporal_row({in.ao.row(y), in.depth.row(y), stable, in.before, in.ao.width, params.epsilon,
+                  static_cast<float>(params.max_frames), params.literal, to.ao.row(y), to.history_ao.row(y),
+                  to.depth.row(y), to.count.row(y)},
+                 past_of(y));
+  });
+}
+
+void filter_along_rows(const FilterInput& in, const FilterOutput& to, const Reprojection& reprojection) {
+  filter_rows(in, to, [&](int y) { return [row = reprojection.row(y)](int x) { return past_at(row, x); }; });
+}
+
+void filter_along_planes(const FilterInput& in, const FilterOutput& to, const Reprojected& past) {
+  filter_rows(in, to, [&](int y) {
+    return [x_before = past.x.row(y), y_before = past.y.row(y), depth = past.depth.row(y)](int x) {
+      return Point{load(x_before + x), load(y_before + x), load(depth + x)};
+    };
+  });
+}
+
+}  // namespace aftershade::temporal::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace aftershade::temporal {
 
 namespace {
+
+HWY_EXPORT(continuity);
+HWY_EXPORT(least_around);
+HWY_EXPORT(filter_along_rows);
+HWY_EXPORT(filter_along_planes);
 
 /// Seed 000, "History Buffers": (AO, Z) = (1, 0), N = 0.
 TemporalHistory cleared_history() { return {{0, 0, 0, 0}, Plane(1, 1, 1.0F), Plane(1, 1), Plane(1, 1), {}, {}, {}}; }
@@ -58,23 +125,10 @@ const params::Table& SelectiveTemporalParams::table() {
 
 Plane continuity_mask(const SelectiveTemporalParams& params, const filter::SampleGrid& grid,
                       const filter::Surface& surface) {
-  const ContinuityParams kernel{
-      filter::GridSamples(grid), filter::Lens(surface.projection),
-      filter::EdgeTolerance(params.distance_m, params.distance_footprints, grid.step, surface.projection)};
-  Plane mask(grid.width(), grid.height());
-  for_rows(mask.height(), [&](int y) { continuity_row(kernel, y, mask.row(y)); });
-  return mask;
+  return HWY_DYNAMIC_DISPATCH(continuity)(params, grid, surface);
 }
 
-Plane dilate_discontinuities(ConstPlaneView mask, int n) {
-  const int first = -(n / 2), last = first + n - 1;  // seed 000's 4x4: -2 to +1 (algorithms 14, item 6)
-  Plane along(mask.width, mask.height), out(mask.width, mask.height);
-  for_rows(mask.height, [&](int y) { least_along_row({mask.row(y), mask.width, first, last, along.row(y)}); });
-  for_rows(mask.height, [&](int y) {
-    least_across_rows({along, std::max(y + first, 0), std::min(y + last, mask.height - 1), out.row(y)});
-  });
-  return out;
-}
+Plane dilate_discontinuities(ConstPlaneView mask, int n) { return HWY_DYNAMIC_DISPATCH(least_around)(mask, n); }
 
 namespace {
 
@@ -88,39 +142,7 @@ void keep(TemporalHistory& now, TemporalHistory& history) {
 
 Plane reused(Plane& spare, const Window& window) {
   const bool fits = spare.width() == window.width() && spare.height() == window.height();
-  return fits ? std::move(spare) : Plane(window.width(), window.height());
-}
-
-/// A row of the mask at every pixel.
-void spread(const StabilityMask& mask, int y, int width, float* row) {
-  const float* texels = mask.texels.row((y - mask.origin_y) / mask.step);
-  const int shift = mask.step == 2 ? 1 : 0;
-  for (int x = 0; x < width; ++x) row[x] = texels[(x - mask.origin_x) >> shift];
-}
-
-/// Where the pixels of row y were: `past(y, stable, x, y, depth)` leaves them in the three rows.
-template <class Past>
-Plane filtered(const SelectiveTemporalParams& params, ConstPlaneView ao, ConstPlaneView depth,
-               const StabilityMask& stable_mask, Past&& past, Window window, TemporalHistory& history) {
-  if (history.ao.empty()) history = cleared_history();
-  const int width = window.width(), height = window.height();
-  TemporalHistory now;
-  now.window = window;
-  now.ao = reused(history.spare_ao, window);
-  now.depth = reused(history.spare_depth, window);
-  now.count = reused(history.spare_count, window);
-  Plane out(width, height);
-  const HistoryView before{history.ao, history.depth, history.count, history.window.min_x, history.window.min_y};
-  for_rows(height, [&](int y) {
-    Plane row(width, 4);
-    if (params.selective) spread(stable_mask, y, width, row.row(3));
-    past(y, params.literal ? nullptr : row.row(3), row.row(0), row.row(1), row.row(2));
-    temporal_row({ao.row(y), depth.row(y), params.selective ? row.row(3) : nullptr, row.row(0), row.row(1), row.row(2),
-                  before, width, params.epsilon, static_cast<float>(params.max_frames), params.literal, out.row(y),
-                  now.ao.row(y), now.depth.row(y), now.count.row(y)});
-  });
-  keep(now, history);
-  return out;
+  return fits ? std::move(spare) : Plane::for_overwrite(window.width(), window.height());
 }
 
 void check(const SelectiveTemporalParams& params, ConstPlaneView ao, ConstPlaneView depth, const StabilityMask& mask,
@@ -130,29 +152,46 @@ void check(const SelectiveTemporalParams& params, ConstPlaneView ao, ConstPlaneV
   if (params.selective && mask.step == 1) require_same_size(mask.texels, window, "stability mask");
 }
 
+/// `along`: one of the exported functions, bound to the past.
+template <class Along>
+Plane filtered(const SelectiveTemporalParams& params, ConstPlaneView ao, ConstPlaneView depth,
+               const StabilityMask& stable_mask, Window window, TemporalHistory& history, const Along& along) {
+  check(params, ao, depth, stable_mask, window);
+  if (history.ao.empty()) history = cleared_history();
+  TemporalHistory now;
+  now.window = window;
+  now.ao = reused(history.spare_ao, window);
+  now.depth = reused(history.spare_depth, window);
+  now.count = reused(history.spare_count, window);
+  Plane out = Plane::for_overwrite(window.width(), window.height());
+  along({params,
+         ao,
+         depth,
+         stable_mask,
+         {history.ao, history.depth, history.count, history.window.min_x, history.window.min_y}},
+        {out, now.ao, now.depth, now.count});
+  keep(now, history);
+  return out;
+}
+
 }  // namespace
 
 Plane selective_temporal_filter(const SelectiveTemporalParams& params, ConstPlaneView ao, ConstPlaneView depth,
                                 const StabilityMask& stable_mask, const Reprojection& reprojection, Window window,
                                 TemporalHistory& history) {
-  check(params, ao, depth, stable_mask, window);
-  const auto past = [&](int y, const float* stable, float* x, float* y_before, float* z) {
-    reprojection.row(y, stable, x, y_before, z);
-  };
-  return filtered(params, ao, depth, stable_mask, past, window, history);
+  return filtered(params, ao, depth, stable_mask, window, history, [&](const FilterInput& in, const FilterOutput& to) {
+    HWY_DYNAMIC_DISPATCH(filter_along_rows)(in, to, reprojection);
+  });
 }
 
 Plane selective_temporal_filter(const SelectiveTemporalParams& params, ConstPlaneView ao, ConstPlaneView depth,
                                 const StabilityMask& stable_mask, const Reprojected& reprojected, Window window,
                                 TemporalHistory& history) {
-  check(params, ao, depth, stable_mask, window);
   require_same_size(reprojected.x, window, "reprojection");
-  const auto past = [&](int y, const float*, float* x, float* y_before, float* z) {
-    std::copy_n(reprojected.x.row(y), window.width(), x);
-    std::copy_n(reprojected.y.row(y), window.width(), y_before);
-    std::copy_n(reprojected.depth.row(y), window.width(), z);
-  };
-  return filtered(params, ao, depth, stable_mask, past, window, history);
+  return filtered(params, ao, depth, stable_mask, window, history, [&](const FilterInput& in, const FilterOutput& to) {
+    HWY_DYNAMIC_DISPATCH(filter_along_planes)(in, to, reprojected);
+  });
 }
 
 }  // namespace aftershade::temporal
+#endif

@@ -1,9 +1,97 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/temporal/temporal_blur.cpp"  // this file, compiled once a SIMD target
 #include "core/temporal/temporal_blur.h"
+
+#include <hwy/foreach_target.h>
 
 #include "core/base/error.h"
 #include "core/parallel/rows.h"
 #include "core/temporal/temporal_blur_kernel.h"
+#include "core/temporal/temporal_blur_step.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::temporal::HWY_NAMESPACE {
+
+using namespace blur_kernel;
+
+void texel_rows(const filter::SampleGrid& grid, const filter::Surface& surface, TexelSurface& out) {
+  for_rows(grid.height(), [&](int y) {
+    texel_surface_row({GridSamples(grid),
+                       NormalSamples(surface),
+                       Lens(surface.projection),
+                       {out.point[0].row(y), out.point[1].row(y), out.point[2].row(y)},
+                       {out.normal[0].row(y), out.normal[1].row(y), out.normal[2].row(y)}},
+                      y);
+  });
+}
+
+/// One pass of a blur, along x or along y; `spacing`: from tap to tap, of each texel; null: 1.
+void blur_pass(const TemporalBlurStep& step, ConstPlaneView in, int dx, int dy, const Plane* spacing, Plane& out) {
+  const TemporalBlurParams& params = step.params;
+  const EdgeTolerance cut(params.cut_m, params.cut_footprints, step.grid.step, step.surface.projection);
+  const auto weights = params.weights == BlurTaps::box ? std::array{1.0F, 1.0F, 1.0F} : std::array{6.0F, 4.0F, 1.0F};
+  for_rows(in.height, [&](int y) {
+    const FiveTapRow row{PointSamples(step.texels.point),
+                         PointSamples(step.texels.normal),
+                         Samples(in),
+                         dx,
+                         dy,
+                         weights,
+                         cut,
+                         params.literal,
+                         out.row(y)};
+    if (spacing != nullptr)
+      spaced_five_tap_row(row, spacing->row(y), y);
+    else
+      five_tap_row(row, y);
+  });
+}
+
+void blend_rows(const TemporalBlurStep& step, ConstPlaneView value, const Reprojected& where,
+                const TemporalBlurHistory& before, TemporalBlurHistory& now) {
+  const TemporalBlurParams& params = step.params;
+  const blur_kernel::HistoryView view{PointSamples(before.texels.point),
+                                      PointSamples(before.texels.normal),
+                                      Samples(before.value),
+                                      Samples(before.variance),
+                                      before.texel_x,
+                                      before.texel_y,
+                                      Lens(before.projection)};
+  const EdgeTolerance cut(params.cut_m, params.cut_footprints, step.grid.step, step.surface.projection);
+  for_rows(step.grid.height(), [&](int y) {
+    blend_row({GridSamples(step.grid),
+               step.grid.step,
+               step.grid.origin_x,
+               step.grid.origin_y,
+               Samples(where.x),
+               Samples(where.y),
+               Samples(where.depth),
+               view,
+               value.row(y),
+               cut,
+               params.cut_m,
+               params.near_m,
+               std::max(params.near_m, params.far_m),
+               params.history_weight,
+               params.difference_scale,
+               params.literal,
+               step.tap_variance(),
+               now.value.row(y),
+               now.variance.row(y),
+               now.weight.row(y)},
+              y);
+  });
+}
+
+void spacing_rows(const Plane& variance, float wanted, float blur_variance, Plane& spacing) {
+  for_rows(spacing.height(),
+           [&](int y) { spacing_row(variance.row(y), spacing.width(), wanted, blur_variance, spacing.row(y)); });
+}
+
+}  // namespace aftershade::temporal::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace aftershade::temporal {
 
 const params::Table& TemporalBlurParams::table() {
@@ -43,14 +131,10 @@ const params::Table& TemporalBlurParams::table() {
 
 namespace {
 
-using namespace blur_kernel;
-
-std::array<float, 3> tap_weights(BlurTaps taps) {
-  return taps == BlurTaps::box ? std::array{1.0F, 1.0F, 1.0F} : std::array{6.0F, 4.0F, 1.0F};
-}
-
-/// Of the five taps, in texels: (4 + 1 + 0 + 1 + 4) / 5, or (4 + 4 + 0 + 4 + 4) / 16.
-float tap_variance(BlurTaps taps) { return taps == BlurTaps::box ? 2.0F : 1.0F; }
+HWY_EXPORT(texel_rows);
+HWY_EXPORT(blur_pass);
+HWY_EXPORT(blend_rows);
+HWY_EXPORT(spacing_rows);
 
 Projection absolute_projection(const filter::Surface& surface) {
   Projection p = surface.projection;
@@ -59,98 +143,42 @@ Projection absolute_projection(const filter::Surface& surface) {
   return p;
 }
 
-class Step {
- public:
-  Step(const TemporalBlurParams& params, const filter::SampleGrid& grid, const filter::Surface& surface)
-      : params_(params),
-        grid_(grid),
-        surface_(surface),
-        texels_(texel_surface(grid, surface)),
-        cut_(params.cut_m, params.cut_footprints, grid.step, surface.projection) {}
+/// B, or with `spacing` the same with taps that far apart.
+Plane blurred(const TemporalBlurStep& step, ConstPlaneView value, const Plane* spacing = nullptr) {
+  Plane along(value.width, value.height), out(value.width, value.height);
+  HWY_DYNAMIC_DISPATCH(blur_pass)(step, value, 1, 0, spacing, along);
+  HWY_DYNAMIC_DISPATCH(blur_pass)(step, along, 0, 1, spacing, out);
+  return out;
+}
 
-  /// B, or with `spacing` the same with taps that far apart.
-  Plane blurred(ConstPlaneView value, const Plane* spacing = nullptr) const {
-    const auto pass = [&](ConstPlaneView in, int dx, int dy) {
-      Plane out(in.width, in.height);
-      for_rows(in.height, [&](int y) {
-        five_tap_row(
-            {PointSamples(texels_.point), PointSamples(texels_.normal), Samples(in), dx, dy,
-             tap_weights(params_.weights), cut_, params_.literal, spacing ? spacing->row(y) : nullptr, out.row(y)},
-            y);
-      });
-      return out;
-    };
-    return pass(pass(value, 1, 0), 0, 1);
-  }
+/// What this frame keeps, but for `value`, which is not blurred again yet, and the texels.
+TemporalBlurHistory blended(const TemporalBlurStep& step, ConstPlaneView value, const Reprojected& where,
+                            const TemporalBlurHistory& before) {
+  const filter::SampleGrid& grid = step.grid;
+  const int width = grid.width(), height = grid.height();
+  TemporalBlurHistory now{grid.step,
+                          (step.surface.origin_x + grid.origin_x) / grid.step,
+                          (step.surface.origin_y + grid.origin_y) / grid.step,
+                          absolute_projection(step.surface),
+                          {},
+                          Plane(width, height),
+                          Plane(width, height, 2 * step.tap_variance()),
+                          Plane(width, height)};
+  if (before.step != grid.step || before.value.empty())
+    now.value = copy_of(value);
+  else
+    HWY_DYNAMIC_DISPATCH(blend_rows)(step, value, where, before, now);
+  return now;
+}
 
-  /// What this frame keeps, but for `value`, which is not blurred again yet.
-  TemporalBlurHistory blended(ConstPlaneView value, const Reprojected& where, const TemporalBlurHistory& before) {
-    const int width = grid_.width(), height = grid_.height();
-    const float variance = tap_variance(params_.weights);
-    TemporalBlurHistory now{grid_.step,
-                            (surface_.origin_x + grid_.origin_x) / grid_.step,
-                            (surface_.origin_y + grid_.origin_y) / grid_.step,
-                            absolute_projection(surface_),
-                            {},
-                            Plane(width, height),
-                            Plane(width, height, 2 * variance),
-                            Plane(width, height)};
-    if (before.step != grid_.step || before.value.empty()) {
-      now.value = copy_of(value);
-    } else {
-      const HistoryView view{PointSamples(before.texels.point),
-                             PointSamples(before.texels.normal),
-                             Samples(before.value),
-                             Samples(before.variance),
-                             before.texel_x,
-                             before.texel_y,
-                             filter::Lens(before.projection)};
-      for_rows(height, [&](int y) {
-        blend_row({filter::GridSamples(grid_),
-                   grid_.step,
-                   grid_.origin_x,
-                   grid_.origin_y,
-                   Samples(where.x),
-                   Samples(where.y),
-                   Samples(where.depth),
-                   view,
-                   value.row(y),
-                   cut_,
-                   params_.cut_m,
-                   params_.near_m,
-                   std::max(params_.near_m, params_.far_m),
-                   params_.history_weight,
-                   params_.difference_scale,
-                   params_.literal,
-                   variance,
-                   now.value.row(y),
-                   now.variance.row(y),
-                   now.weight.row(y)},
-                  y);
-      });
-    }
-    return now;
-  }
-
-  /// The value with the variance that it still lacks.
-  Plane warmed(const TemporalBlurHistory& now) const {
-    const float variance = tap_variance(params_.weights), a = params_.history_weight;
-    const float wanted = 2 * variance + variance * a / (1 - a);  // algorithms 5.3
-    Plane spacing(now.value.width(), now.value.height());
-    for_rows(spacing.height(),
-             [&](int y) { spacing_row(now.variance.row(y), spacing.width(), wanted, variance, spacing.row(y)); });
-    return blurred(now.value, &spacing);
-  }
-
-  TexelSurface take_texels() { return std::move(texels_); }
-
- private:
-  const TemporalBlurParams& params_;
-  const filter::SampleGrid& grid_;
-  const filter::Surface& surface_;
-  TexelSurface texels_;
-  filter::EdgeTolerance cut_;
-};
+/// The value with the variance that it still lacks.
+Plane warmed(const TemporalBlurStep& step, const TemporalBlurHistory& now) {
+  const float variance = step.tap_variance(), a = step.params.history_weight;
+  const float wanted = 2 * variance + variance * a / (1 - a);  // algorithms 5.3
+  Plane spacing(now.value.width(), now.value.height());
+  HWY_DYNAMIC_DISPATCH(spacing_rows)(now.variance, wanted, variance, spacing);
+  return blurred(step, now.value, &spacing);
+}
 
 void require_same_size(ConstPlaneView plane, int width, int height, const char* name) {
   if (plane.width == width && plane.height == height) return;
@@ -163,14 +191,7 @@ TexelSurface texel_surface(const filter::SampleGrid& grid, const filter::Surface
   TexelSurface out;
   for (Plane& plane : out.point) plane = Plane(grid.width(), grid.height());
   for (Plane& plane : out.normal) plane = Plane(grid.width(), grid.height());
-  for_rows(grid.height(), [&](int y) {
-    blur_kernel::texel_surface_row({filter::GridSamples(grid),
-                                    filter::NormalSamples(surface),
-                                    filter::Lens(surface.projection),
-                                    {out.point[0].row(y), out.point[1].row(y), out.point[2].row(y)},
-                                    {out.normal[0].row(y), out.normal[1].row(y), out.normal[2].row(y)}},
-                                   y);
-  });
+  HWY_DYNAMIC_DISPATCH(texel_rows)(grid, surface, out);
   return out;
 }
 
@@ -178,13 +199,15 @@ Plane temporal_blur(const TemporalBlurParams& params, ConstPlaneView value, cons
                     const filter::Surface& surface, const Reprojected& reprojected, TemporalBlurHistory& history) {
   require_same_size(value, grid.width(), grid.height(), "the value");
   require_same_size(reprojected.x, surface.depth.width, surface.depth.height, "the reprojection");
-  Step step(params, grid, surface);
-  TemporalBlurHistory now = step.blended(step.blurred(value), reprojected, history);
-  now.value = step.blurred(now.value);
-  Plane out = params.warm_start ? step.warmed(now) : copy_of(now.value);
-  now.texels = step.take_texels();
+  TexelSurface texels = texel_surface(grid, surface);
+  const TemporalBlurStep step{params, grid, surface, texels};
+  TemporalBlurHistory now = blended(step, blurred(step, value), reprojected, history);
+  now.value = blurred(step, now.value);
+  Plane out = params.warm_start ? warmed(step, now) : copy_of(now.value);
+  now.texels = std::move(texels);
   history = std::move(now);
   return out;
 }
 
 }  // namespace aftershade::temporal
+#endif

@@ -1,76 +1,121 @@
-#pragma once
+#if defined(AFTERSHADE_CORE_TEMPORAL_TEMPORAL_BLUR_KERNEL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AFTERSHADE_CORE_TEMPORAL_TEMPORAL_BLUR_KERNEL_H
+#undef AFTERSHADE_CORE_TEMPORAL_TEMPORAL_BLUR_KERNEL_H
+#else
+#define AFTERSHADE_CORE_TEMPORAL_TEMPORAL_BLUR_KERNEL_H
+#endif
 #include <array>
+#include <cmath>
 
 #include "core/filter/lane_geometry.h"
 
-namespace aftershade::temporal::blur_kernel {
-using namespace lanes;
-using filter::Point;
-using filter::Samples;
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::temporal::HWY_NAMESPACE::blur_kernel {
+
+using namespace lanes::HWY_NAMESPACE;
+using namespace filter::HWY_NAMESPACE;
 
 /// Three planes that make a point or a direction.
 struct PointSamples {
   explicit PointSamples(const std::array<Plane, 3>& planes) : x(planes[0]), y(planes[1]), z(planes[2]) {}
   Samples x, y, z;
   Point operator()(Int i, Int j) const { return {x(i, j), y(i, j), z(i, j)}; }
+  template <bool kInside>
+  Point operator()(const Columns<kInside>& column, int j) const {
+    return {column(x.row(j)), column(y.row(j)), column(z.row(j))};
+  }
 };
 
 struct TexelSurfaceRow {
-  filter::GridSamples texels;
-  filter::NormalSamples normals;
-  filter::Lens lens;
+  GridSamples texels;
+  NormalSamples normals;
+  Lens lens;
   std::array<float*, 3> point, normal;  ///< out
 };
 inline void texel_surface_row(const TexelSurfaceRow& row, int y) {
-  for (int x0 = 0; x0 < row.texels.depth.width; x0 += kLanes) {
-    const Int x = row.texels.depth.clamp_x(iota(x0)), iy = y;
-    const Point n = row.normals(to_int(row.texels.x_of(x, iy)), to_int(row.texels.y_of(x, iy)));
-    const Point p = row.texels.point(row.lens, x, iy);
-    const Mask here = filter::is_surface(p.z);
+  const int width = row.texels.depth.width;
+  for_each_vector(width, 0, 0, [&](int x0, auto inside) {
+    const Columns<inside()> x(x0, width);
+    const Point n = row.texels.normal(row.normals, x, y), p = row.texels.point(row.lens, x, y);
+    const Mask here = is_surface(p.z);
     store(row.point[0] + x0, select(here, p.x, 0.0F));
     store(row.point[1] + x0, select(here, p.y, 0.0F));
     store(row.point[2] + x0, select(here, p.z, HUGE_VALF));
     store(row.normal[0] + x0, n.x);
     store(row.normal[1] + x0, n.y);
     store(row.normal[2] + x0, n.z);
-  }
+  });
 }
 
-/// One direction of the blur: taps at (x + t s dx, y + t s dy), |t| <= 2.
+/// One direction of the blur: taps at (x + t dx, y + t dy), |t| <= 2.
 struct FiveTapRow {
   PointSamples points, normals;
   Samples value;
   int dx, dy;
   std::array<float, 3> weights;  ///< of |t| = 0, 1, 2
-  filter::EdgeTolerance cut;
-  bool literal;          ///< cut by depth, not by distance from the tangent plane
-  const float* spacing;  ///< s of each texel, a whole number; null: 1
+  EdgeTolerance cut;
+  bool literal;  ///< cut by depth, not by distance from the tangent plane
   float* out;
 };
 
-/// "If the distance between the depth of the main and the neighbor is outside of a limit the pixel will be skipped"
-/// (seed 001). The mean is taken of differences from the centre, so a constant stays the same to the bit.
+/// What the blur has gathered of one group of texels. The mean is taken of differences from the centre, so a constant
+/// stays the same to the bit.
+struct FiveTaps {
+  FiveTaps(const FiveTapRow& row, Point own, Point own_normal, Float own_value)
+      : point(own),
+        normal(own_normal),
+        here(is_surface(own.z)),
+        cut(row.cut.at(own.z)),
+        base(select(is_finite(own_value), own_value, 1.0F)),
+        sum(0.0F),
+        weights(row.weights[0]),
+        literal(row.literal) {}
+  /// "If the distance between the depth of the main and the neighbor is outside of a limit the pixel will be skipped"
+  /// (seed 001).
+  void add(Point there, Float value, Mask exists, float weight) {
+    const Point v = there - point;
+    const Float d = literal ? abs(v.z) : plane_distance(v, normal);
+    const Mask same = here & exists & (d <= cut) & is_finite(value);  // background: d is infinite
+    sum += select(same, weight * (value - base), 0.0F);
+    weights += select(same, Float(weight), 0.0F);
+  }
+  Float mean() const { return base + sum / weights; }
+
+  Point point, normal;
+  Mask here;
+  Float cut, base, sum, weights;
+  bool literal;
+};
+
 inline void five_tap_row(const FiveTapRow& row, int y) {
+  const Mask all_exist = Float(0.0F) < 1.0F;
+  for_each_vector(row.value.width, 2 * row.dx, 2 * row.dx, [&](int x0, auto inside) {
+    const Columns<inside()> x(x0, row.value.width);
+    FiveTaps taps(row, row.points(x, y), row.normals(x, y), x(row.value.row(y)));
+    for (int t = -2; t <= 2; ++t) {
+      const int ty = y + t * row.dy;
+      if (t == 0 || ty < 0 || ty >= row.value.height) continue;
+      const Columns<inside()> tx(x0 + t * row.dx, row.value.width);
+      taps.add(row.points(tx, ty), tx(row.value.row(ty)), row.dx != 0 ? tx.inside : all_exist,
+               row.weights[static_cast<size_t>(t < 0 ? -t : t)]);
+    }
+    store(row.out + x0, taps.mean());
+  });
+}
+
+/// The same with taps as far apart as `spacing` says.
+inline void spaced_five_tap_row(const FiveTapRow& row, const float* spacings, int y) {
   for (int x0 = 0; x0 < row.value.width; x0 += kLanes) {
-    const Int x = row.value.clamp_x(iota(x0)), iy = y;
-    const Point centre = row.points(x, iy), normal = row.normals(x, iy);
-    const Mask here = filter::is_surface(centre.z);
-    const Float cut = row.cut.at(centre.z), own = row.value(x, iy);
-    const Int spacing = row.spacing ? to_int(load(row.spacing + x0)) : Int(1);
-    const Float base = select(is_finite(own), own, 1.0F);
-    Float sum = 0.0F, weights = row.weights[0];
+    const Int x = row.value.clamp_x(iota(x0)), iy = y, spacing = to_int(load(spacings + x0));
+    FiveTaps taps(row, row.points(x, iy), row.normals(x, iy), row.value(x, iy));
     for (int t = -2; t <= 2; ++t) {
       if (t == 0) continue;
       const Int tx = x + spacing * Int(t * row.dx), ty = iy + spacing * Int(t * row.dy);
       const Int sx = row.value.clamp_x(tx), sy = row.value.clamp_y(ty);
-      const Point v = row.points(sx, sy) - centre;
-      const Float tap = row.value(sx, sy), d = row.literal ? abs(v.z) : filter::plane_distance(v, normal);
-      const Mask same = here & row.value.contains(tx, ty) & (d <= cut) & is_finite(tap);  // background: d is infinite
-      const float w = row.weights[static_cast<size_t>(t < 0 ? -t : t)];
-      sum += select(same, w * (tap - base), 0.0F);
-      weights += select(same, Float(w), 0.0F);
+      taps.add(row.points(sx, sy), row.value(sx, sy), row.value.contains(tx, ty),
+               row.weights[static_cast<size_t>(t < 0 ? -t : t)]);
     }
-    store(row.out + x0, base + sum / weights);
+    store(row.out + x0, taps.mean());
   }
 }
 
@@ -79,16 +124,16 @@ struct HistoryView {
   PointSamples points, normals;
   Samples value, variance;
   int texel_x, texel_y;
-  filter::Lens lens;  ///< of that frame, in absolute pixel coordinates
+  Lens lens;  ///< of that frame, in absolute pixel coordinates
 };
 
 struct BlendRow {
-  filter::GridSamples texels;
+  GridSamples texels;
   int step, origin_x, origin_y;  ///< of the grid: window index of block (0,0)'s first pixel
   Samples x, y, expected;        ///< at every pixel: absolute position and planar depth in frame i-1, NaN: unknown
   HistoryView before;
   const float* value;  ///< of frame i, after the first blur
-  filter::EdgeTolerance cut;
+  EdgeTolerance cut;
   float cut_m, near_m, far_m;  ///< near and far grow with the cut
   float history_weight, difference_scale;
   bool literal;
@@ -111,12 +156,12 @@ inline Past past_of(const BlendRow& row, Int x, Int y) {
               in_block_y = fy - to_float(y * Int(row.step) + Int(row.origin_y));
   const float per_pixel = 1.0F / static_cast<float>(row.step);
   return {(at_x - in_block_x) * per_pixel, (at_y - in_block_y) * per_pixel,
-          filter::unproject(row.before.lens, at_x, at_y, row.expected(px, py))};
+          unproject(row.before.lens, at_x, at_y, row.expected(px, py))};
 }
 
 /// From the expected point to the surface that a texel saw: to its tangent plane, or along the expected point's ray.
 inline Float distance_in_space(const BlendRow& row, Point expected, Point seen, Point normal) {
-  if (!row.literal) return filter::plane_distance(expected - seen, normal);
+  if (!row.literal) return plane_distance(expected - seen, normal);
   const Float along = abs(expected.z - seen.z);
   return row.before.lens.orthographic ? along : along * (sqrt(dot(expected, expected)) / expected.z);
 }
@@ -164,7 +209,7 @@ inline void blend_row(const BlendRow& row, int y) {
     const Int x = row.texels.depth.clamp_x(iota(x0)), iy = y;
     const Float value = load(row.value + x0), z = row.texels.depth(x, iy);
     const Fetched before = fetch(row, past_of(row, x, iy), value, row.cut.at(z) / row.cut_m);
-    const Mask known = filter::is_surface(z) & (before.geometry > 0.0F);
+    const Mask known = is_surface(z) & (before.geometry > 0.0F);
     // (1 - sat(|AO - AO'| / max(AO, AO', 0.1)))^2: algorithms 5.2.
     const Float larger = max(max(abs(value), abs(value + before.difference)), 0.1F);
     const Float alike = 1.0F - sat(row.difference_scale * (abs(before.difference) / larger));
@@ -185,4 +230,6 @@ inline void spacing_row(const float* variance, int width, float wanted, float bl
     store(spacing + x, round_small(sqrt(max(wanted - load(variance + x), 0.0F) / blur_variance)));
 }
 
-}  // namespace aftershade::temporal::blur_kernel
+}  // namespace aftershade::temporal::HWY_NAMESPACE::blur_kernel
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,4 +1,8 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/temporal/temporal_window.cpp"  // this file, compiled once a SIMD target
 #include "core/temporal/temporal_window.h"
+
+#include <hwy/foreach_target.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +15,39 @@
 #include "core/temporal/moving_surfaces.h"
 #include "core/temporal/temporal_window_kernel.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::temporal::HWY_NAMESPACE {
+
+/// The mean of a neighbour's differences around each pixel of the centre; `step`: from tap to tap.
+Plane mean_around(const Plane& centre_depth, const Plane& still_pixels, const Plane& difference,
+                  const Plane& difference_weight, int step) {
+  const int width = centre_depth.width(), height = centre_depth.height();
+  Plane value(width, height), along(width, height), along_weight(width, height), weight(width, height);
+  for_rows(height, [&](int y) { product_row(difference.row(y), difference_weight.row(y), width, value.row(y)); });
+  const Samples depth(centre_depth), still(still_pixels);
+  for_rows(height, [&](int y) {
+    neighbourhood_row(
+        {depth, still, Samples(value), Samples(difference_weight), step, 0, along.row(y), along_weight.row(y)}, y);
+  });
+  for_rows(height, [&](int y) {
+    neighbourhood_row({depth, still, Samples(along), Samples(along_weight), 0, step, value.row(y), weight.row(y)}, y);
+    quotient_row(weight.row(y), width, value.row(y));
+  });
+  return value;
+}
+
+void filter_row(const WindowRow& row) { window_row(row); }
+
+}  // namespace aftershade::temporal::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace aftershade::temporal {
 
 namespace {
+
+HWY_EXPORT(mean_around);
+HWY_EXPORT(filter_row);
 
 /// A frame of the window, seen from the centre.
 struct Neighbour {
@@ -150,24 +184,8 @@ void Windowing::gather(const std::vector<const WindowFrame*>& chain, Side side, 
 }
 
 Plane Windowing::neighbourhood_mean(const Neighbour& neighbour) const {
-  const int width = centre_.window.width(), height = centre_.window.height();
-  const int step = std::max(1, static_cast<int>(std::lround(params_.neighbourhood_px / NeighbourhoodRow::kReach)));
-  Plane value(width, height), along(width, height), along_weight(width, height), weight(width, height);
-  for_rows(height, [&](int y) {
-    for (int x = 0; x < width; ++x) value(x, y) = neighbour.difference(x, y) * neighbour.weight(x, y);
-  });
-  const filter::Samples depth(centre_.depth), still(still_);
-  for_rows(height, [&](int y) {
-    neighbourhood_row({depth, still, filter::Samples(value), filter::Samples(neighbour.weight), step, 0, along.row(y),
-                       along_weight.row(y)},
-                      y);
-  });
-  for_rows(height, [&](int y) {
-    neighbourhood_row(
-        {depth, still, filter::Samples(along), filter::Samples(along_weight), 0, step, value.row(y), weight.row(y)}, y);
-    for (int x = 0; x < width; ++x) value(x, y) = weight(x, y) > 0 ? value(x, y) / weight(x, y) : 0.0F;
-  });
-  return value;
+  const int step = std::max(1, static_cast<int>(std::lround(params_.neighbourhood_px / kNeighbourhoodReach)));
+  return HWY_DYNAMIC_DISPATCH(mean_around)(centre_.depth, still_, neighbour.difference, neighbour.weight, step);
 }
 
 void Windowing::average_changes() {
@@ -194,7 +212,7 @@ WindowedAo Windowing::result() {
     };
     add(before_, row.before);
     add(after_, row.after);
-    window_row(row);
+    HWY_DYNAMIC_DISPATCH(filter_row)(row);
   });
   return out;
 }
@@ -238,3 +256,4 @@ WindowedAo temporal_window(const TemporalWindowParams& params, std::span<const W
 }
 
 }  // namespace aftershade::temporal
+#endif

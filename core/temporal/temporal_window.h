@@ -21,8 +21,8 @@ enum class ChangeTest { near_moving, everywhere, never };
 /// of frames f-1 to f+1 and with the noise sigma that S has along the trajectory (median of third differences: neither
 /// a bend nor a sudden change raises it):
 ///   r = 1 / (1 + t^2),  t = (S_j - S_ref)^2 / ((significance sigma)^2 + change^2)
-/// Two frames at equal distances stay or go together, also judged by their mean, so that an AO that changes evenly keeps
-/// both; for one whose counterpart does not see the surface, or does not exist, the noise is no excuse.
+/// Two frames at equal distances stay or go together, also judged by their mean, so that an AO that changes evenly
+/// keeps both; for one whose counterpart does not see the surface, or does not exist, the noise is no excuse.
 struct TemporalWindowParams {
   static constexpr std::string_view method = "temporal-window";
   static constexpr std::string_view summary = "two-sided temporal window over the AO along motion trajectories";

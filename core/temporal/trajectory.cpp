@@ -1,4 +1,8 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/temporal/trajectory.cpp"  // this file, compiled once a SIMD target
 #include "core/temporal/trajectory.h"
+
+#include <hwy/foreach_target.h>
 
 #include <cmath>
 #include <limits>
@@ -8,23 +12,64 @@
 #include "core/parallel/rows.h"
 #include "core/temporal/trajectory_kernel.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::temporal::HWY_NAMESPACE {
+
+const float* row_or_null(const Plane& plane, int y) { return plane.empty() ? nullptr : plane.row(y); }
+
+void match_rows(const MatchInput& in, const MatchOutput& out) {
+  const MatchTolerance& tolerance = in.tolerance;
+  const EdgeTolerance distance(tolerance.distance_m, tolerance.footprints, 1, in.projection);
+  for_rows(in.still.height(), [&](int y) {
+    match_row({in.frame,
+               Lens(in.projection),
+               distance,
+               tolerance.moving_depth,
+               tolerance.normal_cos,
+               in.consistency_px,
+               in.consistency_share,
+               in.turn,
+               in.centre.ao.row(y),
+               row_or_null(in.centre.nx, y),
+               row_or_null(in.centre.ny, y),
+               row_or_null(in.centre.nz, y),
+               out.to.x.row(y),
+               out.to.y.row(y),
+               out.to.depth.row(y),
+               in.still.row(y),
+               in.step_x.row(y),
+               in.step_y.row(y),
+               in.still.width(),
+               out.to.difference.row(y),
+               out.to.weight.row(y),
+               out.depth.row(y),
+               out.vector_x.row(y),
+               out.vector_y.row(y)});
+  });
+}
+
+}  // namespace aftershade::temporal::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace aftershade::temporal {
 
 namespace {
+
+HWY_EXPORT(match_rows);
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kConsistency_px = 0.5F, kConsistencyShare = 0.05F;  // algorithms 7.2
 
 bool is_surface(double depth) { return std::isfinite(depth) && depth > 0; }
 
-const float* row_or_null(const Plane& plane, int y) { return plane.empty() ? nullptr : plane.row(y); }
 const float* data_or_null(ConstPlaneView plane) { return plane.empty() ? nullptr : plane.data; }
 
 /// Directions only: rotation of the centre's camera space into the other's.
-void set_turn(MatchRow& row, const Camera& centre, const Camera& other) {
+void set_turn(MatchInput& in, const Camera& centre, const Camera& other) {
   const auto way = CameraReprojection::create(centre, other);
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) row.turn[i][j] = way ? static_cast<float>(way->delta()[i][j]) : (i == j ? 1.0F : 0.0F);
+    for (int j = 0; j < 3; ++j) in.turn[i][j] = way ? static_cast<float>(way->delta()[i][j]) : (i == j ? 1.0F : 0.0F);
 }
 
 struct Place {
@@ -122,35 +167,10 @@ void Trajectories::match(Match& to, const Plane& step_x, const Plane& step_y) {
                              static_cast<int>(there.depth.view().stride),
                              there.window.min_x,
                              there.window.min_y};
-  const filter::EdgeTolerance distance(tolerance_.distance_m, tolerance_.footprints, 1, projection);
-  for_rows(x_.height(), [&](int y) {
-    MatchRow row{samples,
-                 filter::Lens(projection),
-                 distance,
-                 tolerance_.moving_depth,
-                 tolerance_.normal_cos,
-                 kConsistency_px,
-                 kConsistencyShare,
-                 {},
-                 centre.ao.row(y),
-                 row_or_null(centre.nx, y),
-                 row_or_null(centre.ny, y),
-                 row_or_null(centre.nz, y),
-                 to.x.row(y),
-                 to.y.row(y),
-                 to.depth.row(y),
-                 still_.row(y),
-                 step_x.row(y),
-                 step_y.row(y),
-                 x_.width(),
-                 to.difference.row(y),
-                 to.weight.row(y),
-                 depth_.row(y),
-                 vector_x_.row(y),
-                 vector_y_.row(y)};
-    set_turn(row, centre.camera, there.camera);
-    match_row(row);
-  });
+  MatchInput in{samples, projection, tolerance_, kConsistency_px, kConsistencyShare,
+                {},      centre,     still_,     step_x,          step_y};
+  set_turn(in, centre.camera, there.camera);
+  HWY_DYNAMIC_DISPATCH(match_rows)(in, {to, depth_, vector_x_, vector_y_});
 }
 
 Match Trajectories::next() {
@@ -169,3 +189,4 @@ Match Trajectories::next() {
 }
 
 }  // namespace aftershade::temporal
+#endif

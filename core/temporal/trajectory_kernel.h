@@ -1,24 +1,24 @@
-#pragma once
+#if defined(AFTERSHADE_CORE_TEMPORAL_TRAJECTORY_KERNEL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AFTERSHADE_CORE_TEMPORAL_TRAJECTORY_KERNEL_H
+#undef AFTERSHADE_CORE_TEMPORAL_TRAJECTORY_KERNEL_H
+#else
+#define AFTERSHADE_CORE_TEMPORAL_TRAJECTORY_KERNEL_H
+#endif
 #include "core/filter/lane_geometry.h"
+#include "core/temporal/trajectory_rows.h"
 
-namespace aftershade::temporal {
-using namespace lanes;
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::temporal::HWY_NAMESPACE {
 
-/// Planes of one frame, read at pixel indices; all have one stride, and those that are missing are null.
-struct FrameSamples {
-  const float *ao, *depth;
-  const float *nx, *ny, *nz;
-  const float *inward_x, *inward_y;    ///< vectors towards the centre
-  const float *outward_x, *outward_y;  ///< and away from it
-  int width, height, stride, min_x, min_y;
-};
+using namespace lanes::HWY_NAMESPACE;
+using namespace filter::HWY_NAMESPACE;
 
 struct MatchRow {
   FrameSamples frame;
-  filter::Lens lens;  ///< of the frame, in absolute pixels: results do not depend on where its window lies
-  filter::EdgeTolerance distance;
+  Lens lens;  ///< of the frame, in absolute pixels: results do not depend on where its window lies
+  EdgeTolerance distance;
   float moving_depth, normal_cos, consistency_px, consistency_share;
-  float turn[3][3];                    ///< row vectors: direction in the centre's camera space -> in this frame's
+  const float (*turn)[3];              ///< row vectors: direction in the centre's camera space -> in this frame's
   const float *ao, *nx, *ny, *nz;      ///< of the centre; normals may be null
   const float *x, *y, *depth, *still;  ///< where the surface is expected
   const float *back_x, *back_y;        ///< and the way from there to where it was one frame nearer to the centre
@@ -29,20 +29,20 @@ struct MatchRow {
 };
 
 /// The centre's normal as this frame's camera sees it; (0,0,0) where there is none.
-inline filter::Point expected_normal(const MatchRow& row, int x0) {
+inline Point expected_normal(const MatchRow& row, int x0) {
   if (row.nx == nullptr) return {0.0F, 0.0F, 0.0F};
   const Float a = load(row.nx + x0), b = load(row.ny + x0), c = load(row.nz + x0);
   const auto column = [&](int i) { return a * row.turn[0][i] + b * row.turn[1][i] + c * row.turn[2][i]; };
-  const filter::Point n{column(0), column(1), column(2)};
-  return select(is_finite(filter::dot(n, n)), n, filter::Point{0.0F, 0.0F, 0.0F});
+  const Point n{column(0), column(1), column(2)};
+  return select(is_finite(dot(n, n)), n, Point{0.0F, 0.0F, 0.0F});
 }
 
 /// Are both normals known and further apart than the tolerance?
-inline Mask turned_away(const MatchRow& row, filter::Point expected, Int index) {
+inline Mask turned_away(const MatchRow& row, Point expected, Int index) {
   if (row.frame.nx == nullptr) return Float(0.0F) > 1.0F;
-  const filter::Point n{gather(row.frame.nx, index), gather(row.frame.ny, index), gather(row.frame.nz, index)};
-  const Mask known = (filter::dot(n, n) > 0.0F) & (filter::dot(expected, expected) > 0.0F);
-  return known & (filter::dot(n, expected) < row.normal_cos);
+  const Point n{gather(row.frame.nx, index), gather(row.frame.ny, index), gather(row.frame.nz, index)};
+  const Mask known = (dot(n, n) > 0.0F) & (dot(expected, expected) > 0.0F);
+  return known & (dot(n, expected) < row.normal_cos);
 }
 
 /// Forward and backward vectors must cancel: |mv_b(x) + mv_f(x')| < 0.5 px + 0.05 |mv| (algorithms 7.2). An unknown
@@ -63,8 +63,8 @@ inline void match_row(const MatchRow& row) {
   for (int i = 0; i < row.width; i += kLanes) {
     const Float given = load(row.ao + i), own = select(is_finite(given), given, 1.0F);
     const Float u = load(row.x + i) - 0.5F, v = load(row.y + i) - 0.5F, z = load(row.depth + i);
-    const Mask still = load(row.still + i) > 0.5F, known = is_finite(u) & is_finite(v) & filter::is_surface(z);
-    const filter::Point expected = filter::unproject(row.lens, u, v, z), normal = expected_normal(row, i);
+    const Mask still = load(row.still + i) > 0.5F, known = is_finite(u) & is_finite(v) & is_surface(z);
+    const Point expected = unproject(row.lens, u, v, z), normal = expected_normal(row, i);
     const Float tolerance = row.distance.at(z) + select(still, Float(0.0F), row.moving_depth * z);
     const Float back_x = load(row.back_x + i), back_y = load(row.back_y + i);
     const Float u0 = floor(u), v0 = floor(v);
@@ -77,10 +77,10 @@ inline void match_row(const MatchRow& row) {
       const Mask inside = (tu >= 0.0F) & (tu < columns) & (tv >= 0.0F) & (tv < rows);
       const Int index = to_int(clamp(tv, 0.0F, rows - 1.0F)) * Int(f.stride) + to_int(clamp(tu, 0.0F, columns - 1.0F));
       const Float tap_z = gather(f.depth, index), tap_ao = gather(f.ao, index);
-      const filter::Point there = filter::unproject(row.lens, u0 + right, v0 + below, tap_z);
-      const Mask valid = known & inside & filter::is_surface(tap_z) & is_finite(tap_ao) &
-                         (filter::plane_distance(there - expected, normal) <= tolerance) &
-                         !turned_away(row, normal, index) & !leads_elsewhere(row, back_x, back_y, index);
+      const Point there = unproject(row.lens, u0 + right, v0 + below, tap_z);
+      const Mask valid = known & inside & is_surface(tap_z) & is_finite(tap_ao) &
+                         (plane_distance(there - expected, normal) <= tolerance) & !turned_away(row, normal, index) &
+                         !leads_elsewhere(row, back_x, back_y, index);
       const Float weight = select(valid, (1.0F - abs(u - u0 - right)) * (1.0F - abs(v - v0 - below)), Float(0.0F));
       sum += weight;
       difference += select(valid, weight * (tap_ao - own), 0.0F);
@@ -101,4 +101,6 @@ inline void match_row(const MatchRow& row) {
   }
 }
 
-}  // namespace aftershade::temporal
+}  // namespace aftershade::temporal::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

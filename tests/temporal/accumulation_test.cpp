@@ -140,8 +140,8 @@ TEST(LiteralPacking, LosesUpToTwoThousandthsInEightBitChannels) {
   double worst = 0, worst_in_float = 0;
   for (int i = 0; i < 1 << 20; ++i) {
     const float value = static_cast<float>(i) * 16 / 16777216.0F;
-    float lanes_back[lanes::kLanes];
-    lanes::store(lanes_back, temporal::through_24_bits(value));
+    float lanes_back[lanes::N_SCALAR::kLanes];
+    lanes::N_SCALAR::store(lanes_back, temporal::N_SCALAR::through_24_bits(value));
     const double back = lanes_back[0];
     ASSERT_NEAR(back, unorm_digits(value), 1e-7) << value;
     worst = std::max(worst, std::abs(back - static_cast<double>(value)));
