@@ -1,6 +1,7 @@
 #include "core/io/exr_encode.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <numeric>
 
@@ -86,7 +87,7 @@ class Rows {
 /// What one thread needs for a chunk.
 struct Scratch {
   ChunkEncoder encoder;
-  std::vector<char> row;
+  std::vector<char> row, packed;
 };
 Scratch& scratch() {
   thread_local Scratch mine;
@@ -106,16 +107,18 @@ class PartEncoder {
         part_number_(part_number),
         may_keep_(!recode && decoded != nullptr && raw_.geometry == part.geometry && raw_.channels == part.channels) {}
 
+  /// Packed chunks lie in memory in the order in which they were finished, so that only as much is used as they take.
   PartChunks encode() {
-    const auto count = static_cast<size_t>(part_.geometry.chunk_count());
-    std::vector<int64_t> starts(count + 1);
-    for (size_t i = 0; i < count; ++i)
-      starts[i + 1] =
-          starts[i] + kHeadBytes + rows_.layout().bytes(part_.geometry.chunk_window(static_cast<int64_t>(i)));
-    PartChunks out{std::vector<std::span<const char>>(count), order(), Buffer(static_cast<size_t>(starts.back()))};
-    for_rows(static_cast<int>(count), [&](int i) {
-      const auto index = static_cast<size_t>(i);
-      out.bytes[index] = encode_chunk(i, out.memory.data() + starts[index]);
+    const int64_t count = part_.geometry.chunk_count();
+    const int64_t most = rows_.layout().bytes(part_.geometry.window) + count * kHeadBytes;
+    PartChunks out{std::vector<std::span<const char>>(static_cast<size_t>(count)), order(),
+                   Buffer(static_cast<size_t>(most))};
+    std::atomic<size_t> used = 0;
+    for_rows(static_cast<int>(count), [&](int index) {
+      const std::span<const char> chunk = encode_chunk(index);
+      char* const target = out.memory.data() + used.fetch_add(chunk.size());
+      std::memcpy(target, chunk.data(), chunk.size());
+      out.bytes[static_cast<size_t>(index)] = {target, chunk.size()};
     });
     return out;
   }
@@ -132,12 +135,15 @@ class PartEncoder {
     return order;
   }
 
-  std::span<const char> encode_chunk(int64_t index, char* slot) const {
+  /// In this thread's scratch.
+  std::span<const char> encode_chunk(int64_t index) const {
     const Window window = part_.geometry.chunk_window(index);
+    const auto bytes = static_cast<size_t>(rows_.layout().bytes(window));
     Scratch& mine = scratch();
-    char* const packed = slot + kHeadBytes;
+    mine.packed.resize(kHeadBytes + bytes);
+    char* const packed = mine.packed.data() + kHeadBytes;
     if (may_keep_ && !is_written(window)) return keep_chunk(index, packed);
-    mine.encoder.start(static_cast<size_t>(rows_.layout().bytes(window)), rows_.layout().channels.size());
+    mine.encoder.start(bytes, rows_.layout().channels.size());
     bool changed = false;
     for (int y = window.min_y; y <= window.max_y; ++y)
       for (size_t c = 0; c < rows_.layout().channels.size(); ++c)
