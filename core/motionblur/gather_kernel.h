@@ -57,8 +57,9 @@ struct Tap {
   Quad colour;
 };
 inline Tap tap_of(const GatherRow& row, Int index, Mask inside) {
-  const Quad q = load_records(row.records, index + Int(GatherRecord::kSpeed));
-  return {inside & (q.a > 0.0F), max(q.a, kLeastRadius_px), q.b, {q.c, q.d}, load_records(row.records, index)};
+  static_assert(GatherRecord::kChannels == 4 && GatherRecord::kSpeed == 4 && GatherRecord::kDirection == 6);
+  const auto [colour, rest] = load_long_records(row.records, index);
+  return {inside & (rest.a > 0.0F), max(rest.a, kLeastRadius_px), rest.b, {rest.c, rest.d}, colour};
 }
 /// The pixel itself.
 inline Tap centre_at(const GatherRow& row, int x) {

@@ -1,13 +1,75 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/motionblur/gather_plus.cpp"  // this file, compiled once a SIMD target
 #include "core/motionblur/gather_plus.h"
 
+#include <hwy/foreach_target.h>
+
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <span>
 #include <vector>
 
 #include "core/motionblur/gather_plus_kernel.h"
 #include "core/parallel/rows.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::motionblur::HWY_NAMESPACE {
+
+/// Copies, because the result replaces the channels.
+struct Records {
+  Plane paths;
+  std::vector<Plane> colours;  ///< one for every four channels
+};
+
+Records records_of(const GatherPlusInput& input, Path path, std::span<Plane* const> channels) {
+  const int width = input.window.width(), height = input.window.height(), padded = width + Plane::kPadding;
+  Records out{Plane::for_overwrite(padded * kRecordFloats, height), {}};
+  for (size_t first = 0; first < channels.size(); first += 4)
+    out.colours.push_back(Plane::for_overwrite(padded * kColourFloats, height));
+  for_rows(height, [&](int y) {
+    std::vector<const float*> rows;
+    for (const Plane* channel : channels) rows.push_back(channel->row(y));
+    const Motion& m = *input.motion;
+    path_row({path, m.prev_x.row(y), m.prev_y.row(y), m.next_x.row(y), m.next_y.row(y),
+              input.depth.data != nullptr ? input.depth.row(y) : nullptr, rows, width, out.paths.row(y)});
+    for (size_t group = 0; group < out.colours.size(); ++group)
+      colour_row(rows, 4 * group, width, out.colours[group].row(y));
+  });
+  return out;
+}
+
+void blur_rows(const GatherPlusParams& params, const GatherPlusInput& input, const TileMotions& tiles,
+               std::span<Plane* const> channels) {
+  const Records records = records_of(input, params.path, channels);
+  GatherPlusRow row{};
+  row.width = input.window.width();
+  row.height = input.window.height();
+  row.origin_x = input.window.min_x;
+  row.origin_y = input.window.min_y;
+  row.record_stride = static_cast<int>(records.paths.view().stride);
+  row.records = records.paths.row(0);
+  row.tiles = &tiles;
+  row.opens = input.shutter.opens;
+  row.exposure = input.shutter.length();
+  row.taps_per_px = params.taps_per_px;
+  row.least_taps = params.least_taps;
+  row.most_taps = std::max(params.most_taps, params.least_taps);
+  for (size_t group = 0; group < records.colours.size(); ++group) {
+    row.colours = records.colours[group].row(0);
+    row.colour_stride = static_cast<int>(records.colours[group].view().stride);
+    row.channels = static_cast<int>(std::min<size_t>(4, channels.size() - 4 * group));
+    for_rows(row.height, [&](int y) {
+      GatherPlusRow of_y = row;
+      of_y.y = y;
+      for (int c = 0; c < row.channels; ++c) of_y.target[c] = channels[4 * group + static_cast<size_t>(c)]->row(y);
+      gather_plus_row(of_y);
+    });
+  }
+}
+
+}  // namespace aftershade::motionblur::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace aftershade::motionblur {
 
 const params::Table& GatherPlusParams::table() {
@@ -27,67 +89,14 @@ const params::Table& GatherPlusParams::table() {
 }
 
 namespace {
-
-/// Values from here on stand for "infinite": sums of differences of smaller ones fit a float.
-constexpr float kInfinite = 1e30F;
-
-Plane records_of(const GatherPlusInput& input, Path path, std::span<const Plane> colours) {
-  const int width = input.window.width(), height = input.window.height();
-  Plane records(width * kRecordFloats, height);
-  for_rows(height, [&](int y) {
-    float* record = records.row(y);
-    for (int x = 0; x < width; ++x, record += kRecordFloats) {
-      const PathCoefficients p = path_coefficients(*input.motion, path, x, y);
-      const float depth = input.depth.data != nullptr ? input.depth(x, y) : kInfinite;
-      const bool usable =
-          std::ranges::all_of(colours, [&](const Plane& colour) { return std::abs(colour(x, y)) < kInfinite; });
-      const float values[kRecordFloats] = {p.before_x,
-                                           p.before_y,
-                                           p.after_x,
-                                           p.after_y,
-                                           p.bend_x,
-                                           p.bend_y,
-                                           depth > 0 && depth < kInfinite ? depth : kInfinite,
-                                           usable ? 1.0F : 0.0F};
-      std::copy(values, values + kRecordFloats, record);
-    }
-  });
-  return records;
+HWY_EXPORT(blur_rows);
 }
-
-}  // namespace
 
 void gather_plus(const GatherPlusParams& params, const GatherPlusInput& input, std::span<Plane* const> channels) {
   if (channels.empty()) return;
   const TileMotions tiles = tile_motions(*input.motion, params.path, input.shutter, input.window, params.motions);
-  std::vector<Plane> source;
-  for (const Plane* channel : channels) source.push_back(copy_of(*channel));
-  const Plane records = records_of(input, params.path, source);
-  GatherPlusKernel kernel{};
-  kernel.width = input.window.width();
-  kernel.height = input.window.height();
-  kernel.origin_x = input.window.min_x;
-  kernel.origin_y = input.window.min_y;
-  kernel.record_stride = static_cast<int>(records.view().stride);
-  kernel.records = records.row(0);
-  kernel.channel_stride = static_cast<int>(source[0].view().stride);
-  kernel.tiles = &tiles;
-  kernel.opens = input.shutter.opens;
-  kernel.exposure = input.shutter.length();
-  kernel.taps_per_px = params.taps_per_px;
-  kernel.least_taps = params.least_taps;
-  kernel.most_taps = std::max(params.most_taps, params.least_taps);
-  constexpr auto kGroup = static_cast<size_t>(GatherPlusKernel::kChannels);
-  for (size_t first = 0; first < channels.size(); first += kGroup) {
-    const size_t count = std::min(kGroup, channels.size() - first);
-    kernel.channels = static_cast<int>(count);
-    for (size_t c = 0; c < count; ++c) kernel.source[c] = source[first + c].row(0);
-    for_rows(kernel.height, [&](int y) {
-      std::array<float*, kGroup> target{};
-      for (size_t c = 0; c < count; ++c) target[c] = channels[first + c]->row(y);
-      gather_plus_row(kernel, y, target.data());
-    });
-  }
+  HWY_DYNAMIC_DISPATCH(blur_rows)(params, input, tiles, channels);
 }
 
 }  // namespace aftershade::motionblur
+#endif

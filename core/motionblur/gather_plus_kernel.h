@@ -1,31 +1,39 @@
-#pragma once
+// The layered gather, one row; see gather_plus.h for the method.
+#if defined(AFTERSHADE_CORE_MOTIONBLUR_GATHER_PLUS_KERNEL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AFTERSHADE_CORE_MOTIONBLUR_GATHER_PLUS_KERNEL_H
+#undef AFTERSHADE_CORE_MOTIONBLUR_GATHER_PLUS_KERNEL_H
+#else
+#define AFTERSHADE_CORE_MOTIONBLUR_GATHER_PLUS_KERNEL_H
+#endif
+#include <algorithm>
+#include <cmath>
+
 #include "core/math/sampling.h"
 #include "core/motionblur/gather_plus_tiles.h"
 #include "core/simd/math.h"
+#include "core/simd/records.h"
 
-/// The layered gather, one row; see gather_plus.h for the method.
-namespace aftershade::motionblur {
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::motionblur::HWY_NAMESPACE {
 
-/// What is read of every pixel, side by side: its path, its depth, and whether it may be read.
-inline constexpr int kRecordFloats = 8, kRecordDepth = 6, kRecordUsable = 7;
+using namespace lanes::HWY_NAMESPACE;
 
-struct GatherPlusKernel {
-  static constexpr int kChannels = 4;
-  int width, height;
-  int origin_x, origin_y;  ///< absolute coordinates of pixel (0, 0): tiles and jitter are tied to them
-  int record_stride;       ///< floats from row to row of the records
-  const float* records;
-  int channel_stride;
-  int channels;  ///< 1 to kChannels
-  const float* source[kChannels];
+/// What is read of every pixel lies side by side, as PathRecord's two quads: its path, its depth, and whether it may be
+/// read. So do its channels, four of them at a time.
+inline constexpr int kRecordFloats = 8, kColourFloats = 4;
+
+struct GatherPlusRow {
+  int width, height, y;
+  int origin_x, origin_y;            ///< absolute coordinates of pixel (0, 0): tiles and jitter are tied to them
+  int record_stride, colour_stride;  ///< floats from row to row
+  const float *records, *colours;    ///< of pixel (0, 0)
   const TileMotions* tiles;
   float opens, exposure;  ///< frames
   float taps_per_px;
   int least_taps, most_taps;
+  int channels;      ///< 1 to 4
+  float* target[4];  ///< row y of each; holds the source's values
 };
-
-namespace detail {
-using namespace lanes;
 
 /// Half a pixel is a pixel's own extent, but for rounding.
 inline constexpr float kCovers_px = 0.505F;
@@ -40,14 +48,27 @@ inline constexpr int kPlaces = 3;
 struct Offset {
   Float x, y;
 };
-inline Offset displaced(const float* path, Int at, Float t) {
-  const Int side = select(t < 0.0F, at, at + Int(2));
+
+/// before_x, before_y, after_x, after_y; bend_x, bend_y, depth, usable.
+struct PathRecord {
+  Quad sides, rest;
+};
+inline PathRecord load_path(const float* records, Int at) {
+  const auto [sides, rest] = load_long_records(records, at);
+  return {sides, rest};
+}
+/// A tile's motion, the same for all its pixels.
+inline PathRecord path_of_tile(const float* path) {
+  return {{path[0], path[1], path[2], path[3]}, {path[4], path[5], 0.0F, 0.0F}};
+}
+inline Offset displaced(const PathRecord& path, Float t) {
+  const Mask before = t < 0.0F;
   const Float t2 = t * t;
-  return {t * gather(path, side) + t2 * gather(path, at + Int(4)),
-          t * gather(path, side + Int(1)) + t2 * gather(path, at + Int(5))};
+  return {t * select(before, path.sides.a, path.sides.c) + t2 * path.rest.a,
+          t * select(before, path.sides.b, path.sides.d) + t2 * path.rest.b};
 }
 
-/// What was found for one pixel at one time. Pixels are indices of the channels' planes.
+/// What was found for one pixel at one time. Pixels are indices of the colours.
 struct Found {
   Int nearest, nearly, farthest;
   Float nearest_depth, nearly_depth, farthest_depth;
@@ -59,25 +80,24 @@ inline Found nothing() {
 }
 
 /// From x to the pixel that a surface comes from which is displaced by d; outside the image for all that are far.
-inline Offset origin_of(const GatherPlusKernel& k, Offset d) {
-  const Float far = static_cast<float>(k.width + k.height);
+inline Offset origin_of(const GatherPlusRow& row, Offset d) {
+  const Float far = static_cast<float>(row.width + row.height);
   return {round_small(clamp(-d.x, -far, far)), round_small(clamp(-d.y, -far, far))};
 }
 
-/// Follows one motion from pixel (x, y) at time t: algorithms 3.5's "reaches the centre", in two dimensions and along
-/// each pixel's own path. `o` is the first place. A place behind what covers already leads nowhere.
-inline void follow(const GatherPlusKernel& k, Int x, Int y, Float t, Offset o, Mask active, Found& f) {
+/// Follows one motion from the pixels x, x + 1, ... at time t: algorithms 3.5's "reaches the centre", in two dimensions
+/// and along each pixel's own path. `o` is the first place. A place behind what covers already leads nowhere.
+inline void follow(const GatherPlusRow& row, int x, Float t, Offset o, Mask active, Found& f) {
   for (int place = 0; place < kPlaces; ++place) {
-    const Int qx = x + to_int(o.x), qy = y + to_int(o.y);
-    const Mask inside = (qx >= Int(0)) & (qx < Int(k.width)) & (qy >= Int(0)) & (qy < Int(k.height));
+    const Int qx = iota(x) + to_int(o.x), qy = Int(row.y) + to_int(o.y);
+    const Int cx = clamp(qx, 0, row.width - 1), cy = clamp(qy, 0, row.height - 1);
+    const Mask inside = (qx == cx) & (qy == cy);
     f.outside = f.outside | (active & !inside);
-    active = active & inside;
-    const Int cx = clamp(qx, 0, k.width - 1), cy = clamp(qy, 0, k.height - 1);
-    const Int record = cy * Int(k.record_stride) + cx * Int(kRecordFloats);
-    active = active & (gather(k.records, record + Int(kRecordUsable)) > 0.0F);
-    const Int pixel = cy * Int(k.channel_stride) + cx;
-    const Float depth = gather(k.records, record + Int(kRecordDepth));
-    const Offset own = displaced(k.records, record, t);
+    const PathRecord there = load_path(row.records, cy * Int(row.record_stride) + cx * Int(kRecordFloats));
+    active = active & inside & (there.rest.d > 0.0F);
+    const Int pixel = cy * Int(row.colour_stride) + cx * Int(kColourFloats);
+    const Float depth = there.rest.c;
+    const Offset own = displaced(there, t);
     const Float off = max(abs(o.x + own.x), abs(o.y + own.y));
     const Mask covers = active & (off <= kCovers_px);
     const Mask nearer = covers & (depth < f.nearest_depth);
@@ -94,75 +114,139 @@ inline void follow(const GatherPlusKernel& k, Int x, Int y, Float t, Offset o, M
     f.any_place = f.any_place | active;
     active = active & !covers & (depth < f.nearest_depth);
     if (!any(active)) break;
-    o = origin_of(k, own);
+    o = origin_of(row, own);
   }
 }
 
-/// What pixel (x, y) shows at time t: an index, and whether the time counts.
+/// What a group of pixels of one tile sees along.
+struct Ways {
+  PathRecord own;
+  const float* tile;  ///< kPathFloats a motion
+  int motions;
+};
+
+/// What pixels see at time t: an index, and whether the time counts.
 struct Seen {
   Int pixel;
   Mask counts;
 };
-inline Seen seen_at(const GatherPlusKernel& k, Int x, int y, Int tile, Float count, Float t, Mask active) {
+inline Seen seen_at(const GatherPlusRow& row, int x, const Ways& ways, Float t, Mask active) {
   Found f = nothing();
-  const Int own = Int(y * k.record_stride) + min(x, Int(k.width - 1)) * Int(kRecordFloats);
-  const Offset first = origin_of(k, displaced(k.records, own, t));
-  follow(k, x, Int(y), t, first, active, f);
-  for (int i = 0; i < k.tiles->motions; ++i) {
-    const Mask used = active & (Float(static_cast<float>(i)) < count);
-    if (!any(used)) break;
-    const Int path = (tile * Int(k.tiles->motions) + Int(i)) * Int(kPathFloats);
-    const Offset o = origin_of(k, displaced(k.tiles->paths.data(), path, t));
-    const Mask elsewhere = used & !((o.x == first.x) & (o.y == first.y));
-    if (any(elsewhere)) follow(k, x, Int(y), t, o, elsewhere, f);
+  const Offset first = origin_of(row, displaced(ways.own, t));
+  follow(row, x, t, first, active, f);
+  for (int i = 0; i < ways.motions; ++i) {
+    const Offset o = origin_of(row, displaced(path_of_tile(ways.tile + i * kPathFloats), t));
+    const Mask elsewhere = active & !((o.x == first.x) & (o.y == first.y));
+    if (any(elsewhere)) follow(row, x, t, o, elsewhere, f);
   }
   const Mask covered = f.covered | f.nearly_covered, uncovered = f.any_place & !f.outside;
   return {select(f.covered, f.nearest, select(f.nearly_covered, f.nearly, f.farthest)), active & (covered | uncovered)};
 }
 
 /// In (0, 1): shifts the times from pixel to pixel.
-inline Float jitter_at(const GatherPlusKernel& k, Int x, int y) {
-  const Int column = (x + Int(k.origin_x)) & Int(3), row = Int((y + k.origin_y) & 3);
-  return gather(kBayer4x4.data(), (row << 2) + column);
+inline Float jitter_at(const GatherPlusRow& row, int x) {
+  const Int column = (iota(x) + Int(row.origin_x)) & Int(3), line = Int((row.y + row.origin_y) & 3);
+  return gather(kBayer4x4.data(), (line << 2) + column);
 }
 
-}  // namespace detail
+inline void store_blurred(const GatherPlusRow& row, int x, Mask where, const Quad& centre, const Quad& sum,
+                          Float weight) {
+  const auto store_one = [&](int c, Float from, Float difference) {
+    if (c >= row.channels) return;
+    float* to = row.target[c] + x;
+    store(to, select(where, from + difference / max(weight, 1.0F), load(to)));
+  };
+  store_one(0, centre.a, sum.a);
+  store_one(1, centre.b, sum.b);
+  store_one(2, centre.c, sum.c);
+  store_one(3, centre.d, sum.d);
+}
 
-/// Blurs row y into `target`, one row a channel, which holds the source's values.
-inline void gather_plus_row(const GatherPlusKernel& k, int y, float* const* target) {
-  using namespace detail;
-  const int tile_row = ((y + k.origin_y) >> kTileShift) - k.tiles->first_row;
-  for (int first = 0; first < k.width; first += kLanes) {
-    const Int x = iota(first), inside = min(x, Int(k.width - 1));
-    const Int tile =
-        Int(tile_row * k.tiles->columns) + ((inside + Int(k.origin_x)) >> kTileShift) - Int(k.tiles->first_column);
-    const Float way = gather(k.tiles->longest_px.data(), tile);
-    const Int own = Int(y * k.record_stride) + inside * Int(kRecordFloats);
-    const Mask moves = (way >= kLeastWay_px) & (gather(k.records, own + Int(kRecordUsable)) > 0.0F);
-    if (!any(moves)) continue;
-    // algorithms 3.6: taps in proportion to the search
-    const Float taps =
-        clamp(-floor(-(way * k.taps_per_px)), static_cast<float>(k.least_taps), static_cast<float>(k.most_taps));
-    const Float count = gather(k.tiles->counts.data(), tile), jitter = jitter_at(k, x, y);
-    const Float step = k.exposure / taps;
-    Float weight = 0.0F, centre[GatherPlusKernel::kChannels], sum[GatherPlusKernel::kChannels];
-    for (int c = 0; c < k.channels; ++c) {
-      centre[c] = gather(k.source[c], Int(y * k.channel_stride) + inside);
-      sum[c] = 0.0F;
-    }
-    for (int i = 0; i < k.most_taps; ++i) {
-      const Mask active = moves & (Float(static_cast<float>(i)) < taps);
-      if (!any(active)) break;
-      const Float t = k.opens + (Float(static_cast<float>(i)) + jitter) * step;
-      const Seen seen = seen_at(k, x, y, tile, count, t, active);
-      weight += select(seen.counts, Float(1.0F), Float(0.0F));
-      for (int c = 0; c < k.channels; ++c)
-        sum[c] += select(seen.counts, gather(k.source[c], seen.pixel) - centre[c], 0.0F);
-    }
-    const Mask blurred = moves & (weight > 0.0F);
-    for (int c = 0; c < k.channels; ++c)
-      store(target[c] + first, select(blurred, centre[c] + sum[c] / max(weight, 1.0F), load(target[c] + first)));
+/// Blurs pixels x to last - 1, at most kLanes, of one tile, which a surface reaches that moves `way_px`.
+inline void gather_plus_pixels(const GatherPlusRow& row, int x, int last, Ways ways, float way_px) {
+  const Int inside = min(iota(x), Int(row.width - 1));
+  ways.own = load_path(row.records, Int(row.y * row.record_stride) + inside * Int(kRecordFloats));
+  const Mask moves = (iota(x) < Int(last)) & (ways.own.rest.d > 0.0F);
+  if (!any(moves)) return;
+  // algorithms 3.6: taps in proportion to the search
+  const float taps = std::min(std::max(-std::floor(-(way_px * row.taps_per_px)), static_cast<float>(row.least_taps)),
+                              static_cast<float>(row.most_taps));
+  const float step = row.exposure / taps;
+  const Float jitter = jitter_at(row, x);
+  const Quad centre = load_records(row.colours, Int(row.y * row.colour_stride) + inside * Int(kColourFloats));
+  Quad sum{0.0F, 0.0F, 0.0F, 0.0F};
+  Float weight = 0.0F;
+  for (int i = 0; static_cast<float>(i) < taps; ++i) {
+    const Float t = row.opens + (Float(static_cast<float>(i)) + jitter) * step;
+    const Seen seen = seen_at(row, x, ways, t, moves);
+    const Quad colour = load_records(row.colours, seen.pixel);
+    weight += select(seen.counts, Float(1.0F), Float(0.0F));
+    sum.a += select(seen.counts, colour.a - centre.a, 0.0F);
+    sum.b += select(seen.counts, colour.b - centre.b, 0.0F);
+    sum.c += select(seen.counts, colour.c - centre.c, 0.0F);
+    sum.d += select(seen.counts, colour.d - centre.d, 0.0F);
+  }
+  store_blurred(row, x, moves & (weight > 0.0F), centre, sum, weight);
+}
+
+/// Tile by tile, so that all pixels beside each other have the same motions to look along.
+inline void gather_plus_row(const GatherPlusRow& row) {
+  const TileMotions& tiles = *row.tiles;
+  const int tile_row = ((row.y + row.origin_y) >> kTileShift) - tiles.first_row;
+  for (int column = 0; column < tiles.columns; ++column) {
+    const auto tile = static_cast<size_t>(tile_row * tiles.columns + column);
+    if (!(tiles.longest_px[tile] >= kLeastWay_px)) continue;
+    const int left = ((tiles.first_column + column) << kTileShift) - row.origin_x;
+    const int last = std::min(left + kTile_px, row.width);
+    const Ways ways{{},
+                    &tiles.paths[tile * static_cast<size_t>(tiles.motions * kPathFloats)],
+                    static_cast<int>(tiles.counts[tile])};
+    for (int x = std::max(left, 0); x < last; x += kLanes)
+      gather_plus_pixels(row, x, last, ways, tiles.longest_px[tile]);
   }
 }
 
-}  // namespace aftershade::motionblur
+/// A row of PathRecord, and of four channels.
+struct PathRow {
+  Path path;
+  const float *prev_x, *prev_y, *next_x, *next_y;
+  const float* depth;  ///< null: everything at one depth
+  std::span<const float* const> channels;
+  int width;
+  float* records;
+};
+
+/// Values from here on stand for "infinite": sums of differences of smaller ones fit a float.
+inline constexpr float kFar = 1e30F;
+
+inline void path_row(const PathRow& row) {
+  for (int x = 0; x < row.width; x += kLanes) {
+    const Float px = load(row.prev_x + x), py = load(row.prev_y + x), nx = load(row.next_x + x),
+                ny = load(row.next_y + x);
+    const Float mx = 0.5F * (nx - px), my = 0.5F * (ny - py);
+    const bool separate = row.path == Path::separate, curved = row.path == Path::curved;
+    const Float z = row.depth != nullptr ? load(row.depth + x) : Float(kFar);
+    Float usable = 1.0F;
+    for (const float* channel : row.channels) usable = select(abs(load(channel + x)) < kFar, usable, 0.0F);
+    float* to = row.records + static_cast<std::ptrdiff_t>(x) * kRecordFloats;
+    store_records(to, kRecordFloats,
+                  {separate ? -px : mx, separate ? -py : my, separate ? nx : mx, separate ? ny : my});
+    store_records(to + 4, kRecordFloats,
+                  {curved ? 0.5F * (nx + px) : Float(0.0F), curved ? 0.5F * (ny + py) : Float(0.0F),
+                   select((z > 0.0F) & (z < kFar), z, Float(kFar)), usable});
+  }
+}
+
+/// Channels first, first + 1, ... of a row, 0 where there are none, side by side.
+inline void colour_row(std::span<const float* const> channels, size_t first, int width, float* colours) {
+  const auto channel = [&](size_t c, int x) {
+    return first + c < channels.size() ? load(channels[first + c] + x) : Float(0.0F);
+  };
+  for (int x = 0; x < width; x += kLanes)
+    store_records(colours + static_cast<std::ptrdiff_t>(x) * kColourFloats, kColourFloats,
+                  {channel(0, x), channel(1, x), channel(2, x), channel(3, x)});
+}
+
+}  // namespace aftershade::motionblur::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

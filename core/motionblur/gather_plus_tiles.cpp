@@ -1,13 +1,44 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/motionblur/gather_plus_tiles.cpp"  // this file, compiled once a SIMD target
 #include "core/motionblur/gather_plus_tiles.h"
+
+#include <hwy/foreach_target.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "core/motionblur/gather_plus_tiles_kernel.h"
 #include "core/parallel/rows.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::motionblur::HWY_NAMESPACE {
+
+/// The longest motion of some pixels, then always the one farthest from those that were taken, up to `most`; of equal
+/// ones the first. Numbers in reading order.
+std::vector<int> most_different_pixels(const Motion& motion, Path path, Shutter shutter, const Window& pixels,
+                                       int most) {
+  TilePool pool;
+  for (int y = pixels.min_y; y <= pixels.max_y; ++y) pool.add(motion, path, shutter, pixels.min_x, y, pixels.width());
+  std::fill(pool.nearest, pool.nearest + TilePool::kRoom, INFINITY);
+  std::vector<int> taken{std::max(pool.first_greatest(pool.length, 0), 0)};
+  while (static_cast<int>(taken.size()) < most) {
+    pool.lower_nearest(taken.back());
+    const int next = pool.first_greatest(pool.nearest, kDistinct_px);
+    if (next < 0) break;
+    taken.push_back(next);
+  }
+  return taken;
+}
+
+}  // namespace aftershade::motionblur::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace aftershade::motionblur {
 
 namespace {
+
+HWY_EXPORT(most_different_pixels);
 
 struct Vec {
   float x, y;
@@ -73,8 +104,7 @@ class Tiles {
     const size_t count = static_cast<size_t>(out_.columns) * static_cast<size_t>(out_.rows);
     std::vector<std::vector<Candidate>> own(count), reaching(count);
     for_rows(out_.rows, [&](int row) {
-      for (int column = 0; column < out_.columns; ++column)
-        own[index(column, row)] = most_different(motions_in(column, row), motions_);
+      for (int column = 0; column < out_.columns; ++column) own[index(column, row)] = motions_in(column, row);
     });
     for (int row = 0; row < out_.rows; ++row)
       for (int column = 0; column < out_.columns; ++column)
@@ -91,14 +121,18 @@ class Tiles {
  private:
   size_t index(int column, int row) const { return static_cast<size_t>(row * out_.columns + column); }
 
+  /// Of a tile's own pixels.
   std::vector<Candidate> motions_in(int column, int row) const {
     const int left = ((out_.first_column + column) << kTileShift) - window_.min_x;
     const int top = ((out_.first_row + row) << kTileShift) - window_.min_y;
-    std::vector<Candidate> pool;
-    for (int y = std::max(top, 0); y < std::min(top + kTile_px, window_.height()); ++y)
-      for (int x = std::max(left, 0); x < std::min(left + kTile_px, window_.width()); ++x)
-        pool.push_back(candidate_of(path_coefficients(motion_, path_, x, y), shutter_));
-    return pool;
+    const Window pixels = intersection({left, top, left + kTile_px - 1, top + kTile_px - 1},
+                                       {0, 0, window_.width() - 1, window_.height() - 1});
+    std::vector<Candidate> taken;
+    for (const int i : HWY_DYNAMIC_DISPATCH(most_different_pixels)(motion_, path_, shutter_, pixels, motions_)) {
+      const int x = pixels.min_x + i % pixels.width(), y = pixels.min_y + i / pixels.width();
+      taken.push_back(candidate_of(path_coefficients(motion_, path_, x, y), shutter_));
+    }
+    return taken;
   }
 
   /// Adds a motion of one tile to all tiles that it touches on its way: steps of a quarter tile, and as much margin.
@@ -159,3 +193,4 @@ TileMotions tile_motions(const Motion& motion, Path path, Shutter shutter, Windo
 }
 
 }  // namespace aftershade::motionblur
+#endif

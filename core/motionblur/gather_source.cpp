@@ -43,7 +43,7 @@ GatherSource gather_source(const HalfVelocity& velocity, ConstPlaneView depth, s
   const int width = velocity.x.width(), height = velocity.x.height();
   GatherSource source{width, height, with_direction ? GatherRecord::kFloatsWithDirection : GatherRecord::kFloats, {}};
   for (size_t first = 0; first < channels.size(); first += GatherRecord::kChannels)
-    source.records.push_back(Plane((width + Plane::kPadding) * source.record_floats, height));
+    source.records.push_back(Plane::for_overwrite((width + Plane::kPadding) * source.record_floats, height));
   HWY_DYNAMIC_DISPATCH(fill)(velocity, depth, channels, tiles, source);
   return source;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <vector>
 
 #include "core/math/sampling.h"
 #include "core/motionblur/gather_source.h"
@@ -47,22 +49,47 @@ Plane direction_variance(const HalfVelocity& neighbours) {
   return out;
 }
 
+namespace {
+
+/// Tiles of the pixels along one axis, up to `margin` pixels beyond the window's edges, where the border's tile counts.
+class TileTable {
+ public:
+  TileTable(int pixels, int margin, int tiles, const std::function<int(int)>& tile_of) : margin_(margin) {
+    for (int i = -margin; i < pixels + margin; ++i) tiles_.push_back(std::clamp(tile_of(i), 0, tiles - 1));
+  }
+  int operator[](int pixel) const { return tiles_[static_cast<size_t>(pixel + margin_)]; }
+
+ private:
+  int margin_;
+  std::vector<int> tiles_;
+};
+
+}  // namespace
+
 TileChoice choose_tiles(const HalfVelocity& neighbours, const Plane& variance, int tile, Window window, float reach) {
   const TileGrid grid(tile, window);
   const int width = window.width(), height = window.height();
-  TileChoice out{{Plane(width, height), Plane(width, height)}, Plane(width, height)};
   const float reach_px = reach * static_cast<float>(tile);
+  const int margin = static_cast<int>(reach_px) + 2;
+  const TileTable columns(width, margin, grid.columns(), [&](int x) { return grid.column_of(x); });
+  const TileTable rows(height, margin, grid.rows(), [&](int y) { return grid.row_of(y); });
+  Plane moves(grid.columns(), grid.rows());
+  for (int row = 0; row < grid.rows(); ++row)
+    for (int column = 0; column < grid.columns(); ++column)
+      moves(column, row) =
+          std::hypot(neighbours.x(column, row), neighbours.y(column, row)) > kLeastRadius_px ? 1.0F : 0.0F;
+  TileChoice out{{Plane(width, height), Plane(width, height)}, Plane(width, height)};
   for_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
-      int column = grid.column_of(x), row = grid.row_of(y);
-      if (std::hypot(neighbours.x(column, row), neighbours.y(column, row)) > kLeastRadius_px) {
+      int column = columns[x], row = rows[y];
+      if (moves(column, row) > 0) {
         const uint32_t bits =
             hash_counters(static_cast<uint32_t>(window.min_x + x), static_cast<uint32_t>(window.min_y + y), 0, 1);
         const auto shift = static_cast<int>(std::floor(0.5F + (2 * unit_float(bits) - 1) * reach_px));
         if ((bits & 1U) != 0)
-          column = std::clamp(grid.column_of(x + shift), 0, grid.columns() - 1);
+          column = columns[x + shift];
         else
-          row = std::clamp(grid.row_of(y + shift), 0, grid.rows() - 1);
+          row = rows[y + shift];
       }
       out.velocity.x(x, y) = neighbours.x(column, row);
       out.velocity.y(x, y) = neighbours.y(column, row);

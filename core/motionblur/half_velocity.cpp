@@ -65,7 +65,9 @@ HWY_EXPORT(of_sources);
 HWY_EXPORT(through_8_bits);
 HWY_EXPORT(longest_squares);
 
-HalfVelocity blank(int width, int height) { return {Plane(width, height), Plane(width, height)}; }
+HalfVelocity blank(int width, int height) {
+  return {Plane::for_overwrite(width, height), Plane::for_overwrite(width, height)};
+}
 
 }  // namespace
 

@@ -100,7 +100,8 @@ std::array<uint32_t, 4> bits_at(const Motion& m, int x, int y) {
 
 Motion motion_of(const MotionParams& params, const MotionSources& sources, WithoutVector* without) {
   const int width = sources.window.width(), height = sources.window.height();
-  Motion out{Plane(width, height), Plane(width, height), Plane(width, height), Plane(width, height)};
+  const auto blank = [&] { return Plane::for_overwrite(width, height); };
+  Motion out{blank(), blank(), blank(), blank()};
   const WithoutVector found = HWY_DYNAMIC_DISPATCH(all_motion)(MotionRows(params, sources), out);
   if (without != nullptr) *without = found;
   return out;
