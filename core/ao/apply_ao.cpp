@@ -1,11 +1,37 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/ao/apply_ao.cpp"  // this file, compiled once a SIMD target
 #include "core/ao/apply_ao.h"
 
+#include <hwy/foreach_target.h>
+
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/ao/apply_ao_kernel.h"
 #include "core/base/error.h"
 #include "core/parallel/rows.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::ao::HWY_NAMESPACE {
+
+/// Colour, and the ambient light in it: empty where everything is darkened.
+using Darkened = std::pair<PlaneView, ConstPlaneView>;
+
+void darken(const ApplyAoParams& params, ConstPlaneView ao, ConstPlaneView baked, std::span<const Darkened> planes) {
+  for_rows(ao.height, [&](int y) {
+    for (const auto& [colour, ambient] : planes)
+      apply_ao_row({ao.row(y), baked.empty() ? nullptr : baked.row(y), params.baked == BakedAo::multiply,
+                    ambient.empty() ? nullptr : ambient.row(y), params.strength, params.minimum, colour.width,
+                    colour.row(y)});
+  });
+}
+
+}  // namespace aftershade::ao::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace aftershade::ao {
 
 const params::Table& ApplyAoParams::table() {
@@ -32,6 +58,8 @@ ApplyTarget resolved_target(const ApplyAoParams& params, const Frame& frame) {
 
 namespace {
 
+HWY_EXPORT(darken);
+
 /// The plane of the ambient role that belongs to a layer's channel: by its last letter where that is R, G or B, since
 /// files list channels alphabetically, else by its place.
 size_t ambient_component(const Layer& layer, size_t plane) {
@@ -54,21 +82,19 @@ void apply_ao(const ApplyAoParams& params, ConstPlaneView ao, Frame& frame) {
   if (params.baked != BakedAo::ignore && !frame.has(Role::ao))
     throw Error(ErrorCode::data, "frame " + std::to_string(frame.number) + " has no ambient occlusion of its own",
                 "name its channel with --channel ao=..., or use baked \"ignore\"");
-  const Plane* baked = params.baked == BakedAo::ignore ? nullptr : &frame.planes(Role::ao)[0];
+  std::vector<std::pair<PlaneView, ConstPlaneView>> planes;
   for (Layer& layer : frame.layers) {
     if (!layer.receives_ao) continue;
     for (size_t i = 0; i < layer.planes.size(); ++i) {
       if (static_cast<int>(i) == layer.alpha) continue;
-      Plane& colour = layer.planes[i];
-      const Plane* ambient =
-          target == ApplyTarget::ambient ? &frame.planes(Role::ambient).at(ambient_component(layer, i)) : nullptr;
-      for_rows(colour.height(), [&](int y) {
-        apply_ao_row({ao.row(y), baked ? baked->row(y) : nullptr, params.baked == BakedAo::multiply,
-                      ambient ? ambient->row(y) : nullptr, params.strength, params.minimum, colour.width(),
-                      colour.row(y)});
-      });
+      planes.emplace_back(layer.planes[i], target == ApplyTarget::ambient
+                                               ? frame.planes(Role::ambient).at(ambient_component(layer, i)).view()
+                                               : ConstPlaneView());
     }
   }
+  const ConstPlaneView baked = params.baked == BakedAo::ignore ? ConstPlaneView() : frame.planes(Role::ao)[0];
+  HWY_DYNAMIC_DISPATCH(darken)(params, ao, baked, planes);
 }
 
 }  // namespace aftershade::ao
+#endif

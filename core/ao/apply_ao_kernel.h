@@ -1,9 +1,15 @@
-#pragma once
+#if defined(AFTERSHADE_CORE_AO_APPLY_AO_KERNEL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AFTERSHADE_CORE_AO_APPLY_AO_KERNEL_H
+#undef AFTERSHADE_CORE_AO_APPLY_AO_KERNEL_H
+#else
+#define AFTERSHADE_CORE_AO_APPLY_AO_KERNEL_H
+#endif
 #include "core/simd/lanes.h"
 
-namespace aftershade::ao {
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::ao::HWY_NAMESPACE {
 
-using namespace lanes;
+using namespace lanes::HWY_NAMESPACE;
 
 struct ApplyAoRow {
   const float* ao;
@@ -39,4 +45,6 @@ inline void apply_ao_row(const ApplyAoRow& row) {
   }
 }
 
-}  // namespace aftershade::ao
+}  // namespace aftershade::ao::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,6 +1,11 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/ao/growing_circle.cpp"  // this file, compiled once a SIMD target
 #include "core/ao/growing_circle.h"
 
+#include <hwy/foreach_target.h>
+
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "core/ao/growing_circle_kernel.h"
@@ -8,6 +13,28 @@
 #include "core/parallel/rows.h"
 #include "core/simd/scalar.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::ao::HWY_NAMESPACE {
+
+Plane occlusion_of_taps(const GrowingCircleParams& params, const filter::Surface& surface,
+                        const filter::SampleGrid& grid, int screen_px, std::span<const Tap> taps,
+                        const std::array<float, 16>& rotation_turns) {
+  Plane out = Plane::for_overwrite(grid.width(), grid.height());
+  for_rows(out.height(), [&](int y) {
+    growing_circle_row(
+        {GridSamples(grid), NormalSamples(surface), Lens(surface.projection), Samples(surface.depth), taps,
+         params.radius_m, params.radius_m * surface.projection.fx, params.radius_m * surface.projection.fy,
+         params.reach_screens * static_cast<float>(screen_px), params.bias, params.strength, rotation_turns,
+         (surface.origin_x + grid.origin_x) / grid.step, (surface.origin_y + grid.origin_y) / grid.step, out.row(y)},
+        y);
+  });
+  return out;
+}
+
+}  // namespace aftershade::ao::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace aftershade::ao {
 
 const params::Table& GrowingCircleParams::table() {
@@ -38,6 +65,8 @@ const params::Table& GrowingCircleParams::table() {
 
 namespace {
 
+HWY_EXPORT(occlusion_of_taps);
+
 double fraction(double x) { return x - std::floor(x); }
 
 /// Turns from one tap to the next: the golden section of a turn, so that any number of taps surrounds the pixel evenly.
@@ -67,18 +96,9 @@ std::array<float, 16> rotations(const GrowingCircleParams& params, int frame_num
 
 Plane growing_circle(const GrowingCircleParams& params, const filter::Surface& surface, const filter::SampleGrid& grid,
                      int screen_px, int frame_number) {
-  const std::vector<Tap> taps = circle_taps(params);
-  Plane out(grid.width(), grid.height(), 1.0F);
-  for_rows(out.height(), [&](int y) {
-    growing_circle_row(
-        {filter::GridSamples(grid), filter::NormalSamples(surface), filter::Lens(surface.projection),
-         filter::Samples(surface.depth), taps, params.radius_m, params.radius_m * surface.projection.fx,
-         params.radius_m * surface.projection.fy, params.reach_screens * static_cast<float>(screen_px), params.bias,
-         params.strength, rotations(params, frame_number), (surface.origin_x + grid.origin_x) / grid.step,
-         (surface.origin_y + grid.origin_y) / grid.step, out.row(y)},
-        y);
-  });
-  return out;
+  return HWY_DYNAMIC_DISPATCH(occlusion_of_taps)(params, surface, grid, screen_px, circle_taps(params),
+                                                 rotations(params, frame_number));
 }
 
 }  // namespace aftershade::ao
+#endif

@@ -1,8 +1,13 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/ao/hbao.cpp"  // this file, compiled once a SIMD target
 #include "core/ao/hbao.h"
+
+#include <hwy/foreach_target.h>
 
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "core/ao/dual_resolution_kernel.h"
 #include "core/ao/hbao_kernel.h"
@@ -10,6 +15,57 @@
 #include "core/math/sampling.h"
 #include "core/parallel/rows.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::ao::HWY_NAMESPACE {
+
+/// Evaluates the texels that `wanted` (of the grid's size; empty: all) marks.
+void evaluate(const HbaoParams& params, const HbaoPattern& pattern, float max_reach_px, const filter::Surface& surface,
+              const filter::SampleGrid& grid, ConstPlaneView wanted, Plane& out) {
+  const Projection& lens = surface.projection;
+  const auto bias = static_cast<float>(std::tan(static_cast<double>(params.bias_deg) * std::numbers::pi / 180));
+  for_rows(out.height(), [&](int y) {
+    hbao_row({.grid = GridSamples(grid),
+              .normals = NormalSamples(surface),
+              .lens = Lens(lens),
+              .depth = Samples(surface.depth),
+              .params = params,
+              .pattern = pattern,
+              .texel_px = grid.step,
+              .aspect = lens.fx / lens.fy,
+              .radius_px = params.radius_m * lens.fy / static_cast<float>(grid.step),
+              .max_reach_px = max_reach_px,
+              .inv_radius2 = 1.0F / (params.radius_m * params.radius_m),
+              .tan_bias = bias,
+              .texel_x = (surface.origin_x + grid.origin_x) / grid.step,
+              .texel_y = (surface.origin_y + grid.origin_y) / grid.step,
+              .wanted = wanted.empty() ? nullptr : wanted.row(y),
+              .out = out.row(y)},
+             y);
+  });
+}
+
+Plane unrepresented(const HbaoParams& params, const filter::Surface& surface, const filter::SampleGrid& grid) {
+  Plane out = Plane::for_overwrite(surface.depth.width, surface.depth.height);
+  for_rows(out.height(), [&](int y) {
+    unrepresented_row(
+        {.grid = GridSamples(grid),
+         .normals = NormalSamples(surface),
+         .lens = Lens(surface.projection),
+         .tolerance = EdgeTolerance(params.edge_distance_m, params.edge_footprints, 2, surface.projection),
+         .depth = Samples(surface.depth),
+         .origin_x = grid.origin_x,
+         .origin_y = grid.origin_y,
+         .below = params.refine_below,
+         .out = out.row(y)},
+        y);
+  });
+  return out;
+}
+
+}  // namespace aftershade::ao::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace aftershade::ao {
 
 const params::Table& HbaoParams::table() {
@@ -66,6 +122,9 @@ HbaoPattern hbao_pattern() {
 
 namespace {
 
+HWY_EXPORT(evaluate);
+HWY_EXPORT(unrepresented);
+
 /// The pattern of one frame: with per-frame noise shifted by the R2 sequence (M. Roberts), powers of the reciprocal
 /// plastic number, which fills the square evenly whatever the number of frames.
 HbaoPattern pattern_of(const HbaoParams& params, int frame_number) {
@@ -88,65 +147,27 @@ float max_reach_px(const HbaoParams& params, const filter::Surface& surface, int
   return params.max_footprint * texels_per_height;
 }
 
-/// Evaluates the texels that `wanted` (of the grid's size; empty: all) marks.
-void evaluate(const HbaoParams& params, const filter::Surface& surface, const filter::SampleGrid& grid,
-              int frame_number, ConstPlaneView wanted, Plane& out) {
-  const Projection& lens = surface.projection;
-  const auto bias = static_cast<float>(std::tan(static_cast<double>(params.bias_deg) * std::numbers::pi / 180));
-  const HbaoPattern pattern = pattern_of(params, frame_number);
-  for_rows(out.height(), [&](int y) {
-    hbao_row({.grid = filter::GridSamples(grid),
-              .normals = filter::NormalSamples(surface),
-              .lens = filter::Lens(lens),
-              .depth = Samples(surface.depth),
-              .params = params,
-              .pattern = pattern,
-              .texel_px = grid.step,
-              .aspect = lens.fx / lens.fy,
-              .radius_px = params.radius_m * lens.fy / static_cast<float>(grid.step),
-              .max_reach_px = max_reach_px(params, surface, params.literal ? 2 : grid.step),
-              .inv_radius2 = 1.0F / (params.radius_m * params.radius_m),
-              .tan_bias = bias,
-              .texel_x = (surface.origin_x + grid.origin_x) / grid.step,
-              .texel_y = (surface.origin_y + grid.origin_y) / grid.step,
-              .wanted = wanted.empty() ? nullptr : wanted.row(y),
-              .out = out.row(y)},
-             y);
-  });
-}
-
-Plane unrepresented(const HbaoParams& params, const filter::Surface& surface, const filter::SampleGrid& grid) {
-  Plane out(surface.depth.width, surface.depth.height);
-  for_rows(out.height(), [&](int y) {
-    unrepresented_row(
-        {.grid = filter::GridSamples(grid),
-         .normals = filter::NormalSamples(surface),
-         .lens = filter::Lens(surface.projection),
-         .tolerance = filter::EdgeTolerance(params.edge_distance_m, params.edge_footprints, 2, surface.projection),
-         .depth = filter::Samples(surface.depth),
-         .origin_x = grid.origin_x,
-         .origin_y = grid.origin_y,
-         .below = params.refine_below,
-         .out = out.row(y)},
-        y);
-  });
+Plane evaluated(const HbaoParams& params, const filter::Surface& surface, const filter::SampleGrid& grid,
+                int frame_number, ConstPlaneView wanted, Plane out) {
+  HWY_DYNAMIC_DISPATCH(evaluate)
+  (params, pattern_of(params, frame_number), max_reach_px(params, surface, params.literal ? 2 : grid.step), surface,
+   grid, wanted, out);
   return out;
 }
 
 }  // namespace
 
 Plane hbao(const HbaoParams& params, const filter::Surface& surface, const filter::SampleGrid& grid, int frame_number) {
-  Plane out(grid.width(), grid.height(), 1.0F);
-  evaluate(params, surface, grid, frame_number, {}, out);
-  return out;
+  return evaluated(params, surface, grid, frame_number, {}, Plane::for_overwrite(grid.width(), grid.height()));
 }
 
 Plane dual_resolution_hbao(const HbaoParams& params, const filter::Surface& surface, const filter::SampleGrid& grid,
                            int frame_number) {
   const filter::BilateralUpsampleParams upsampling{params.edge_distance_m, params.edge_footprints};
-  Plane out = filter::bilateral_upsample(upsampling, hbao(params, surface, grid, frame_number), grid, surface);
-  evaluate(params, surface, filter::full_grid(surface), frame_number, unrepresented(params, surface, grid), out);
-  return out;
+  const Plane wanted = HWY_DYNAMIC_DISPATCH(unrepresented)(params, surface, grid);
+  Plane coarse = filter::bilateral_upsample(upsampling, hbao(params, surface, grid, frame_number), grid, surface);
+  return evaluated(params, surface, filter::full_grid(surface), frame_number, wanted, std::move(coarse));
 }
 
 }  // namespace aftershade::ao
+#endif

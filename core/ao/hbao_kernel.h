@@ -1,18 +1,23 @@
-#pragma once
+#if defined(AFTERSHADE_CORE_AO_HBAO_KERNEL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AFTERSHADE_CORE_AO_HBAO_KERNEL_H
+#undef AFTERSHADE_CORE_AO_HBAO_KERNEL_H
+#else
+#define AFTERSHADE_CORE_AO_HBAO_KERNEL_H
+#endif
 #include "core/ao/hbao.h"
 #include "core/ao/pattern_tile.h"
 #include "core/filter/lane_geometry.h"
 
-namespace aftershade::ao {
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::ao::HWY_NAMESPACE {
 
-using namespace lanes;
-using filter::Point;
-using filter::Samples;
+using namespace lanes::HWY_NAMESPACE;
+using namespace filter::HWY_NAMESPACE;
 
 struct HbaoRow {
-  filter::GridSamples grid;
-  filter::NormalSamples normals;
-  filter::Lens lens;
+  GridSamples grid;
+  NormalSamples normals;
+  Lens lens;
   Samples depth;
   const HbaoParams& params;
   HbaoPattern pattern;
@@ -48,7 +53,7 @@ inline Float shorter_difference(const HbaoRow& row, const HbaoCentre& c, int dx,
   const auto length2_and_k = [&](int steps) {
     const Int tx = c.px + Int(steps * dx), ty = c.py + Int(steps * dy);
     const Float z = row.depth(row.depth.clamp_x(tx), row.depth.clamp_y(ty)), s = static_cast<float>(steps);
-    const Mask usable = row.depth.contains(tx, ty) & filter::is_surface(z);
+    const Mask usable = row.depth.contains(tx, ty) & is_surface(z);
     const Point v = from_centre(row, c, static_cast<float>(steps * dx), static_cast<float>(steps * dy), z);
     const Float k = (row.lens.orthographic ? c.z - z : (c.z - z) / z) / s;
     return std::pair(select(usable, dot(v, v), HUGE_VALF), select(usable, k, 0.0F));
@@ -67,7 +72,8 @@ inline void tangent_from_normal(const HbaoRow& row, HbaoCentre& c, Point n) {
   c.ky = select(known, ky, 0.0F);
 }
 
-inline HbaoCentre centre_of(const HbaoRow& row, Int x, Int y, Float z) {
+template <bool kInside>
+HbaoCentre centre_of(const HbaoRow& row, const Columns<kInside>& x, int y, Float z) {
   const Float px = row.grid.x_of(x, y), py = row.grid.y_of(x, y), ray = row.lens.orthographic ? 0.0F : 1.0F;
   HbaoCentre c{to_int(px),
                to_int(py),
@@ -77,7 +83,7 @@ inline HbaoCentre centre_of(const HbaoRow& row, Int x, Int y, Float z) {
                0.0F,
                0.0F};
   if (row.params.tangents == Tangents::normals) {
-    tangent_from_normal(row, c, row.normals(c.px, c.py));
+    tangent_from_normal(row, c, row.grid.normal(row.normals, x, y));
   } else {
     c.kx = shorter_difference(row, c, 1, 0);
     c.ky = shorter_difference(row, c, 0, 1);
@@ -99,8 +105,8 @@ inline Float lifted_tangent(const HbaoRow& row, const HbaoCentre& c, Float ox, F
 
 /// What the taps of one direction have found so far.
 struct Horizon {
-  Float raised = 0.0F;  ///< tan of the horizon above the lifted tangent
-  Float occlusion = 0.0F;
+  Float raised;  ///< tan of the horizon above the lifted tangent
+  Float occlusion;
 };
 
 /// "if d2 < R^2 and tanS > tanH: ao += (1 - d2/R^2) (sinS - sinH); tanH = tanS" (algorithms 1.2).
@@ -132,7 +138,7 @@ inline Layout layout(const HbaoRow& row, Float z, Float shift) {
 
 /// Flat distance falloffs of a direction's taps inside the image, and of all its taps.
 struct Coverage {
-  Float inside = 0.0F, all = 0.0F;
+  Float inside, all;
   /// 1 where all are inside. With no tap, or none that weighs, nothing is missing.
   Float share() const { return select(all > 0.0F, inside / all, 1.0F); }
 };
@@ -150,7 +156,7 @@ inline void take_tap(const HbaoRow& row, const HbaoCentre& c, const Layout& taps
   const Mask inside = row.depth.contains(tx, ty);
   const Float z = row.depth(row.depth.clamp_x(tx), row.depth.clamp_y(ty));
   const Mask seen = row.params.border == HbaoBorder::clamp ? usable : usable & inside;
-  raise(horizon, row, from_centre(row, c, px, py, z), lifted, seen & filter::is_surface(z));
+  raise(horizon, row, from_centre(row, c, px, py, z), lifted, seen & is_surface(z));
   if (row.params.border != HbaoBorder::renormalise) return;
   const Float rx = ox / row.aspect;
   const Float weight = max(1.0F - (rx * rx + oy * oy) / (taps.radius * taps.radius), 0.0F);
@@ -169,8 +175,8 @@ struct Slice {
 inline Slice integrate_direction(const HbaoRow& row, const HbaoCentre& c, const Layout& taps, Direction dir) {
   const auto texel_px = static_cast<float>(row.texel_px);
   const auto lifted = [&](Float ox, Float oy) { return lifted_tangent(row, c, ox * texel_px, oy * texel_px); };
-  Horizon horizon;
-  Coverage coverage;
+  Horizon horizon{0.0F, 0.0F};
+  Coverage coverage{0.0F, 0.0F};
   const Float first = taps.shift * taps.step, near = first + 1.0F;
   const Float nx = round_small(dir.x * near), ny = round_small(dir.y * near), near_tangent = lifted(nx, ny);
   take_tap(row, c, taps, nx, ny, near_tangent, taps.radius >= 1.0F, horizon, coverage);
@@ -199,30 +205,36 @@ inline Slice integrate_direction(const HbaoRow& row, const HbaoCentre& c, const 
 /// ao^exponent, ao in [0, 1].
 inline Float power(Float ao, float exponent) { return select(ao > 0.0F, exp2(exponent * log2(ao)), 0.0F); }
 
-inline void hbao_row(const HbaoRow& row, int y) {
+template <bool kInside>
+void hbao_vector(const HbaoRow& row, int x0, int y) {
+  const Mask wanted = row.wanted ? load(row.wanted + x0) > 0.0F : Mask(Float(0.0F) < 1.0F);
+  const Columns<kInside> x(x0, row.grid.depth.width);
+  const Float z = x(row.grid.depth.row(y));
+  const Mask here = is_surface(z);
+  if (!any(wanted & here)) return store(row.out + x0, select(wanted, Float(1.0F), load(row.out + x0)));
+  const HbaoCentre centre = centre_of(row, x, y, select(here, z, 1.0F));
+  const Int cell = tile_cell(x.index + Int(row.texel_x), y + row.texel_y);
+  const Float rotation = gather(row.pattern.rotation.data(), cell);
+  const Layout taps = layout(row, centre.z, gather(row.pattern.shift.data(), cell));
   const float sector = 1.0F / static_cast<float>(row.params.directions);
-  for (int x0 = 0; x0 < row.grid.depth.width; x0 += kLanes) {
-    const Mask wanted = row.wanted ? load(row.wanted + x0) > 0.0F : Mask{true};
-    if (!any(wanted)) continue;
-    const Int x = row.grid.depth.clamp_x(iota(x0)), iy = y;
-    const Float z = row.grid.depth(x, iy);
-    const Mask here = filter::is_surface(z);
-    const HbaoCentre centre = centre_of(row, x, iy, select(here, z, 1.0F));
-    const Int cell = tile_cell(x + Int(row.texel_x), iy + Int(row.texel_y));
-    const Float rotation = gather(row.pattern.rotation.data(), cell);
-    const Layout taps = layout(row, centre.z, gather(row.pattern.shift.data(), cell));
-    Float occlusion = 0.0F, weights = 0.0F;
-    for (int i = 0; i < row.params.directions; ++i) {
-      const SinCos angle = sincos_turns((static_cast<float>(i) + rotation) * sector);
-      const Slice slice = integrate_direction(row, centre, taps, {angle.cos * row.aspect, angle.sin});
-      occlusion += slice.weight * slice.occlusion;
-      weights += slice.weight;
-    }
-    const Float ao = sat(1.0F - select(weights > 0.0F, row.params.strength * (occlusion / weights), 0.0F));
-    const Float shaped = row.params.power_exponent == 1 ? ao : power(ao, row.params.power_exponent);
-    const Mask open = (!here) | (taps.radius < 1.0F);
-    store(row.out + x0, select(wanted, select(open, 1.0F, shaped), load(row.out + x0)));
+  Float occlusion = 0.0F, weights = 0.0F;
+  for (int i = 0; i < row.params.directions; ++i) {
+    const SinCos angle = sincos_turns((static_cast<float>(i) + rotation) * sector);
+    const Slice slice = integrate_direction(row, centre, taps, {angle.cos * row.aspect, angle.sin});
+    occlusion += slice.weight * slice.occlusion;
+    weights += slice.weight;
   }
+  const Float ao = sat(1.0F - select(weights > 0.0F, row.params.strength * (occlusion / weights), 0.0F));
+  const Float shaped = row.params.power_exponent == 1 ? ao : power(ao, row.params.power_exponent);
+  const Mask open = (!here) | (taps.radius < 1.0F);
+  store(row.out + x0, select(wanted, select(open, 1.0F, shaped), load(row.out + x0)));
 }
 
-}  // namespace aftershade::ao
+inline void hbao_row(const HbaoRow& row, int y) {
+  for_each_vector(row.grid.depth.width, 0, 0,
+                  [&](int x0, auto inside) { hbao_vector<decltype(inside)::value>(row, x0, y); });
+}
+
+}  // namespace aftershade::ao::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -16,10 +16,4 @@ inline lanes::HWY_NAMESPACE::Int tile_cell(lanes::HWY_NAMESPACE::Int x, lanes::H
 
 }  // namespace aftershade::ao::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-
-#if HWY_TARGET == HWY_SCALAR
-namespace aftershade::ao {
-using namespace N_SCALAR;
-}
-#endif
 #endif

@@ -1,10 +1,16 @@
-#pragma once
+#if defined(AFTERSHADE_CORE_AO_SAMPLE_VALIDATION_KERNEL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AFTERSHADE_CORE_AO_SAMPLE_VALIDATION_KERNEL_H
+#undef AFTERSHADE_CORE_AO_SAMPLE_VALIDATION_KERNEL_H
+#else
+#define AFTERSHADE_CORE_AO_SAMPLE_VALIDATION_KERNEL_H
+#endif
 #include <limits>
 
 #include "core/ao/sample_validation.h"
 #include "core/ao/sphere_tap.h"
 
-namespace aftershade::ao {
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::ao::HWY_NAMESPACE {
 
 struct PastSamples {
   explicit PastSamples(const PastSurface& past)
@@ -15,8 +21,8 @@ struct PastSamples {
         lens(past.projection),
         min_x(static_cast<float>(past.min_x)),
         min_y(static_cast<float>(past.min_y)) {}
-  filter::Samples depth, x, y, expected;
-  filter::Lens lens;
+  Samples depth, x, y, expected;
+  Lens lens;
   float min_x, min_y;
 };
 
@@ -24,7 +30,7 @@ struct SampleConfidenceRow {
   const SphereTaps& taps;
   const PastSamples& past;
   RangeRow range;
-  filter::EdgeTolerance rounding;
+  EdgeTolerance rounding;
   float sharpness;  ///< S / R
   float limit_m;    ///< of the binary test; +inf: smooth
   float same_depth;
@@ -63,7 +69,7 @@ inline PastPoint point_before(const PastSamples& past, Float x, Float y, float s
   const Float scale = past.lens.orthographic ? Float(1.0F) : z;
   const Point point{((left + 0.5F - past.lens.cx) + du) * past.lens.inv_fx * scale,
                     -(((top + 0.5F - past.lens.cy) + dv) * past.lens.inv_fy * scale), z};
-  return {point, inside(near_x, near_y), filter::is_surface(nearest) & is_finite(dot(point, point))};
+  return {point, inside(near_x, near_y), is_surface(nearest) & is_finite(dot(point, point))};
 }
 
 /// min(|q - p|, reach); `reach` where q is nothing.
@@ -78,7 +84,7 @@ inline Float sample_change(const SampleConfidenceRow& row, const BallCentre& cen
                            const PastPoint& centre_before, const SphereTap& tap) {
   constexpr float kInfinite = std::numeric_limits<float>::infinity();
   const float reach = 2 * row.taps.radius_m;
-  const Mask seen = filter::is_surface(tap.surface.z);
+  const Mask seen = is_surface(tap.surface.z);
   const Float x = select(seen, row.past.x(tap.x, tap.y), past_x + to_float(tap.x - centre.x));
   const Float y = select(seen, row.past.y(tap.x, tap.y), past_y + to_float(tap.y - centre.y));
   const PastPoint before = point_before(row.past, x, y, row.same_depth);
@@ -91,24 +97,32 @@ inline Float sample_change(const SampleConfidenceRow& row, const BallCentre& cen
   return select(tap.in_frame & (occludes | occluded), select(before.in_frame, beyond, kInfinite), 0.0F);
 }
 
-inline void sample_confidence_row(const SampleConfidenceRow& row, int y) {
+template <bool kInside>
+void sample_confidence_vector(const SampleConfidenceRow& row, int x0, int y) {
   const SphereTaps& taps = row.taps;
-  for (int x0 = 0; x0 < taps.grid.depth.width; x0 += kLanes) {
-    const BallCentre centre = ball_centre(taps, taps.grid.depth.clamp_x(iota(x0)), y);
-    const Float past_x = row.past.x(centre.x, centre.y), past_y = row.past.y(centre.x, centre.y);
-    const PastPoint before = point_before(row.past, past_x, past_y, row.same_depth);
-    const Mask here = filter::is_surface(centre.point.z) & before.in_frame & before.seen;
-    const Int first = row.range.first_of(x0), count = row.range.count_of(x0);
-    Float worst = 0.0F;
-    for (int i = 0; any(here & (Int(i) < count)); ++i) {
-      const SphereTap tap = sphere_tap(taps, centre, first + Int(i));
-      const Float change = sample_change(row, centre, past_x, past_y, before, tap);
-      worst = max(worst, select(Int(i) < count, change, 0.0F));
-    }
-    const Float smooth = 1.0F / (1.0F + row.sharpness * worst);
-    const Float binary = select(worst > row.limit_m, Float(0.0F), Float(1.0F));
-    store(row.out + x0, select(here, row.limit_m < std::numeric_limits<float>::infinity() ? binary : smooth, 0.0F));
+  const Columns<kInside> x(x0, taps.grid.depth.width);
+  const BallCentre centre = ball_centre(taps, x, y);
+  const Float past_x = row.past.x(centre.x, centre.y), past_y = row.past.y(centre.x, centre.y);
+  const PastPoint before = point_before(row.past, past_x, past_y, row.same_depth);
+  const Mask here = is_surface(centre.point.z) & before.in_frame & before.seen & x.inside;
+  const Int first = row.range.first_of(x0), count = row.range.count_of(x0);
+  const int shared = row.range.shared_first(x0);
+  Float worst = 0.0F;
+  for (int i = 0; any(here & (Int(i) < count)); ++i) {
+    const SphereTap tap = sphere_tap(taps, centre, ball_point(taps, first, shared, i));
+    const Float change = sample_change(row, centre, past_x, past_y, before, tap);
+    worst = max(worst, select(Int(i) < count, change, 0.0F));
   }
+  const Float smooth = 1.0F / (1.0F + row.sharpness * worst);
+  const Float binary = select(worst > row.limit_m, Float(0.0F), Float(1.0F));
+  store(row.out + x0, select(here, row.limit_m < std::numeric_limits<float>::infinity() ? binary : smooth, 0.0F));
 }
 
-}  // namespace aftershade::ao
+inline void sample_confidence_row(const SampleConfidenceRow& row, int y) {
+  for_each_vector(row.taps.grid.depth.width, 0, 0,
+                  [&](int x0, auto inside) { sample_confidence_vector<decltype(inside)::value>(row, x0, y); });
+}
+
+}  // namespace aftershade::ao::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

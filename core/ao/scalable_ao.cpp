@@ -1,8 +1,8 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/ao/scalable_ao.cpp"  // this file, compiled once a SIMD target
-#include <hwy/foreach_target.h>
-
 #include "core/ao/scalable_ao.h"
+
+#include <hwy/foreach_target.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,47 +12,95 @@
 #include "core/ao/tap_pattern.h"
 #include "core/math/sampling.h"
 #include "core/parallel/rows.h"
+#include "core/simd/scalar.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace aftershade::ao::HWY_NAMESPACE {
 
-/// A mirrored pattern repeats after half a turn.
-std::array<float, 16> rotations(TapPattern pattern) {
-  std::array<float, 16> turns = kBayer4x4;
-  if (pattern == TapPattern::mirrored)
-    for (float& t : turns) t *= 0.5F;
-  return turns;
+DepthLevels depth_levels(const filter::DepthPyramid& pyramid, bool mips) {
+  const ConstPlaneView plane = pyramid.mips();
+  DepthLevels out{Samples(pyramid.level(0)),
+                  plane.data,
+                  static_cast<int>(plane.stride),
+                  mips ? std::min(pyramid.levels(), kDepthLevels) : 1,
+                  pyramid.origin_x(),
+                  pyramid.origin_y(),
+                  {},
+                  {},
+                  {},
+                  {}};
+  for (int m = 0; m < out.count; ++m) {
+    const auto i = static_cast<size_t>(m);
+    out.whole[i] = -(1 << m);
+    for (int bit = m - 1; bit >= 0; --bit) (((m - bit) & 1) != 0 ? out.odd : out.even)[i] |= 1 << bit;
+    if (m == 0) continue;
+    const auto begin = static_cast<int32_t>(pyramid.level(m).data - plane.data);
+    out.first[i] = begin - (pyramid.origin_y() >> m) * out.mip_stride - (pyramid.origin_x() >> m);
+  }
+  return out;
 }
 
-DepthLevels depth_levels(const filter::DepthPyramid& pyramid, bool mips) {
-  const int count = mips ? std::min(pyramid.levels(), kDepthLevels) : 1;
-  const auto level = [&](int m) { return Samples(pyramid.level(std::min(m, count - 1))); };
-  return {{level(0), level(1), level(2), level(3), level(4), level(5)}, count, pyramid.origin_x(), pyramid.origin_y()};
+/// By the lowest two bits of a texel's absolute row; `texel_x`: absolute column of the grid's first. `turns` is added
+/// to every texel's rotation, a mirrored pattern repeats after half a turn.
+std::array<DirectionTable, 4> direction_tables(std::span<const Tap> taps, TapPattern pattern, float turns,
+                                               int texel_x) {
+  const float share = pattern == TapPattern::mirrored ? 0.5F : 1.0F;
+  std::array<DirectionTable, 4> tables;
+  for (size_t row = 0; row < 4; ++row)
+    for (const Tap& tap : taps)
+      for (int column = 0; column < DirectionTable::kColumns; ++column) {
+        const auto cell = 4 * row + static_cast<size_t>((texel_x + column) & 3);
+        const lanes::UnitVector rotation = lanes::unit_vector(kBayer4x4[cell] * share + turns);
+        tables[row].x.push_back(tap.x * rotation.x - tap.y * rotation.y);
+        tables[row].y.push_back(tap.x * rotation.y + tap.y * rotation.x);
+      }
+  return tables;
+}
+
+std::vector<float> tap_falloffs(std::span<const Tap> taps, DistanceFalloff kind) {
+  alignas(64) std::array<float, kLanes> lanes;
+  std::vector<float> out;
+  for (const Tap& tap : taps) {
+    store(lanes.data(), distance_falloff(kind, tap.radius));
+    out.push_back(lanes[0]);
+  }
+  return out;
 }
 
 Plane one_pass(const ScalableAoParams& params, const filter::Surface& surface, const filter::DepthPyramid& pyramid,
                const filter::SampleGrid& grid, float turns) {
   const auto taps = params.pattern == TapPattern::mirrored ? mirrored_taps(params.taps) : spiral_taps(params.taps);
+  const auto falloffs = tap_falloffs(taps, params.falloff);
   const float clamp_px = filter::scaled_px(params.max_radius_px, params.reference_height_px, surface.display_height);
-  Plane out(grid.width(), grid.height(), 1.0F);
+  const int texel_x = (surface.origin_x + grid.origin_x) / grid.step,
+            texel_y = (surface.origin_y + grid.origin_y) / grid.step;
+  const auto directions = direction_tables(taps, params.pattern, turns, texel_x);
+  const DepthLevels levels = depth_levels(pyramid, params.depth_mips);
+  Plane out = Plane::for_overwrite(grid.width(), grid.height());
   for_rows(out.height(), [&](int y) {
     scalable_ao_row({.grid = GridSamples(grid),
                      .normals = NormalSamples(surface),
                      .lens = Lens(surface.projection),
-                     .depth = depth_levels(pyramid, params.depth_mips),
+                     .depth = levels,
                      .taps = taps,
+                     .tap_falloffs = falloffs,
+                     .directions = directions[static_cast<size_t>((texel_y + y) & 3)],
                      .params = params,
                      .radius_px_x = params.radius_m * surface.projection.fx,
                      .radius_px_y = params.radius_m * surface.projection.fy,
                      .max_radius_px = params.max_radius_px > 0 ? clamp_px : std::numeric_limits<float>::infinity(),
-                     .noise_turns = turns,
-                     .rotation_turns = rotations(params.pattern),
-                     .texel_x = (surface.origin_x + grid.origin_x) / grid.step,
-                     .texel_y = (surface.origin_y + grid.origin_y) / grid.step,
                      .out = out.row(y)},
                     y);
   });
   return out;
+}
+
+void add_pass(ConstPlaneView pass, Plane& sum) {
+  for_rows(sum.height(), [&](int y) { add_row(pass.row(y), sum.width(), sum.row(y)); });
+}
+
+void divide(int passes, Plane& sum) {
+  for_rows(sum.height(), [&](int y) { divide_row(static_cast<float>(passes), sum.width(), sum.row(y)); });
 }
 
 }  // namespace aftershade::ao::HWY_NAMESPACE
@@ -103,6 +151,8 @@ const params::Table& ScalableAoParams::table() {
 namespace {
 
 HWY_EXPORT(one_pass);
+HWY_EXPORT(add_pass);
+HWY_EXPORT(divide);
 
 /// Successive multiples of the golden ratio fill the circle evenly, whatever the number of passes and frames.
 float noise_turns(const ScalableAoParams& params, int frame_number, int pass) {
@@ -115,17 +165,12 @@ float noise_turns(const ScalableAoParams& params, int frame_number, int pass) {
 
 Plane scalable_ao(const ScalableAoParams& params, const filter::Surface& surface, const filter::DepthPyramid& pyramid,
                   const filter::SampleGrid& grid, int frame_number) {
-  Plane out = HWY_DYNAMIC_DISPATCH(one_pass)(params, surface, pyramid, grid, noise_turns(params, frame_number, 0));
-  for (int pass = 1; pass < params.passes; ++pass) {
-    const Plane next = HWY_DYNAMIC_DISPATCH(one_pass)(params, surface, pyramid, grid, noise_turns(params, frame_number, pass));
-    for_rows(out.height(), [&](int y) {
-      for (int x = 0; x < out.width(); ++x) out(x, y) += next(x, y);
-    });
-  }
-  if (params.passes == 1) return out;
-  for_rows(out.height(), [&](int y) {
-    for (int x = 0; x < out.width(); ++x) out(x, y) /= static_cast<float>(params.passes);
-  });
+  const auto pass = [&](int i) {
+    return HWY_DYNAMIC_DISPATCH(one_pass)(params, surface, pyramid, grid, noise_turns(params, frame_number, i));
+  };
+  Plane out = pass(0);
+  for (int i = 1; i < params.passes; ++i) HWY_DYNAMIC_DISPATCH(add_pass)(pass(i), out);
+  if (params.passes > 1) HWY_DYNAMIC_DISPATCH(divide)(params.passes, out);
   return out;
 }
 

@@ -1,14 +1,20 @@
-#pragma once
+#if defined(AFTERSHADE_CORE_AO_SPHERE_TAP_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AFTERSHADE_CORE_AO_SPHERE_TAP_H
+#undef AFTERSHADE_CORE_AO_SPHERE_TAP_H
+#else
+#define AFTERSHADE_CORE_AO_SPHERE_TAP_H
+#endif
 #include "core/ao/ball_samples.h"
 #include "core/ao/pattern_tile.h"
 #include "core/ao/sphere_kernel.h"
 #include "core/filter/lane_geometry.h"
 
 /// One point of the sphere kernel and the pixel that it is tested at: what the AO and the check of its history share.
-namespace aftershade::ao {
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::ao::HWY_NAMESPACE {
 
-using namespace lanes;
-using filter::Point;
+using namespace lanes::HWY_NAMESPACE;
+using namespace filter::HWY_NAMESPACE;
 
 inline Point operator*(Point p, Float s) { return {p.x * s, p.y * s, p.z * s}; }
 
@@ -29,10 +35,10 @@ struct SphereTaps {
         ball_z(ball_samples().z.data()),
         texel_x((surface.origin_x + at.origin_x) / at.step),
         texel_y((surface.origin_y + at.origin_y) / at.step) {}
-  filter::GridSamples grid;
-  filter::NormalSamples normals;
-  filter::Lens lens;
-  filter::Samples depth;
+  GridSamples grid;
+  NormalSamples normals;
+  Lens lens;
+  Samples depth;
   float radius_m, radius_px_x, radius_px_y;  ///< px: at a depth of 1 m (perspective), everywhere (orthographic)
   float bias_m;
   bool hemisphere, dither;
@@ -51,6 +57,12 @@ struct RangeRow {
   int every_first, every_count;
   Int first_of(int x0) const { return first ? to_int(load(first + x0)) : Int(every_first); }
   Int count_of(int x0) const { return count ? to_int(load(count + x0)) : Int(every_count); }
+  /// The first point of all lanes from x0 on; -1 where they have different ones.
+  int shared_first(int x0) const {
+    if (!first) return every_first;
+    const float shared = first[x0];
+    return all(load(first + x0) == shared) ? static_cast<int>(shared) : -1;
+  }
 };
 
 /// The texel around whose point the ball lies.
@@ -59,18 +71,28 @@ struct BallCentre {
   Point point, normal, mirror;
   Float ray_x, ray_y;  ///< of the pixel, at depth 1
 };
-inline BallCentre ball_centre(const SphereTaps& taps, Int x, Int y) {
-  const Int px = to_int(taps.grid.x_of(x, y)), py = to_int(taps.grid.y_of(x, y));
-  const Float fx = to_float(px), fy = to_float(py), z = taps.grid.depth(x, y);
-  const Int cell = tile_cell(x + Int(taps.texel_x), y + Int(taps.texel_y));
+template <bool kInside>
+BallCentre ball_centre(const SphereTaps& taps, const Columns<kInside>& x, int y) {
+  const Float fx = taps.grid.x_of(x, y), fy = taps.grid.y_of(x, y), z = x(taps.grid.depth.row(y));
+  const Int cell = tile_cell(x.index + Int(taps.texel_x), y + taps.texel_y);
   const MirrorTile& tile = mirror_tile();
-  return {px,
-          py,
-          filter::unproject(taps.lens, fx, fy, z),
-          taps.normals(px, py),
+  return {to_int(fx),
+          to_int(fy),
+          unproject(taps.lens, fx, fy, z),
+          taps.grid.normal(taps.normals, x, y),
           {gather(tile.x.data(), cell), gather(tile.y.data(), cell), gather(tile.z.data(), cell)},
           (fx + 0.5F - taps.lens.cx) * taps.lens.inv_fx,
           -((fy + 0.5F - taps.lens.cy) * taps.lens.inv_fy)};
+}
+
+/// Point i of the sequence after `first` of each lane, which `shared` is where it is not negative.
+inline Point ball_point(const SphereTaps& taps, Int first, int shared, int i) {
+  if (shared >= 0) {
+    const auto at = (static_cast<unsigned>(shared) + static_cast<unsigned>(i)) & (kSequenceLength - 1U);
+    return {taps.ball_x[at], taps.ball_y[at], taps.ball_z[at]};
+  }
+  const Int at = (first + Int(i)) & Int(kSequenceLength - 1);
+  return {gather(taps.ball_x, at), gather(taps.ball_y, at), gather(taps.ball_z, at)};
 }
 
 struct SphereTap {
@@ -80,13 +102,11 @@ struct SphereTap {
   Point surface;  ///< what is seen at the pixel
 };
 
-/// Point `index` of the sequence. Crysis reflects the offsets at a random plane per pixel; StarCraft II flips them into
+/// Point `o` of the unit ball. Crysis reflects the offsets at a random plane per pixel; StarCraft II flips them into
 /// the normal's hemisphere (algorithms 8). Pixel positions are relative to the centre's, so they do not depend on the
 /// data window.
-inline SphereTap sphere_tap(const SphereTaps& taps, const BallCentre& centre, Int index) {
+inline SphereTap sphere_tap(const SphereTaps& taps, const BallCentre& centre, Point o) {
   constexpr float kFarOutside = 1e6F;  // keeps positions inside an Int
-  const Int i = index & Int(kSequenceLength - 1);
-  Point o{gather(taps.ball_x, i), gather(taps.ball_y, i), gather(taps.ball_z, i)};
   if (taps.dither) o = o - centre.mirror * (2.0F * dot(o, centre.mirror));
   if (taps.hemisphere) o = select(dot(o, centre.normal) < 0.0F, Point{-o.x, -o.y, -o.z}, o);
   const Float z = centre.point.z + taps.radius_m * o.z;
@@ -99,7 +119,9 @@ inline SphereTap sphere_tap(const SphereTaps& taps, const BallCentre& centre, In
   const Int x = centre.x + to_int(round_small(dx)), y = centre.y + to_int(round_small(dy));
   const Int sx = taps.depth.clamp_x(x), sy = taps.depth.clamp_y(y);
   return {sx, sy, taps.depth.contains(x, y) & (z > 0.0F), z,
-          filter::unproject(taps.lens, to_float(sx), to_float(sy), taps.depth(sx, sy))};
+          unproject(taps.lens, to_float(sx), to_float(sy), taps.depth(sx, sy))};
 }
 
-}  // namespace aftershade::ao
+}  // namespace aftershade::ao::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

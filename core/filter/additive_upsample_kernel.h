@@ -1,7 +1,13 @@
-#pragma once
+#if defined(AFTERSHADE_CORE_FILTER_ADDITIVE_UPSAMPLE_KERNEL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AFTERSHADE_CORE_FILTER_ADDITIVE_UPSAMPLE_KERNEL_H
+#undef AFTERSHADE_CORE_FILTER_ADDITIVE_UPSAMPLE_KERNEL_H
+#else
+#define AFTERSHADE_CORE_FILTER_ADDITIVE_UPSAMPLE_KERNEL_H
+#endif
 #include "core/filter/lane_geometry.h"
 
-namespace aftershade::filter {
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::filter::HWY_NAMESPACE {
 
 struct AdditiveUpsampleRow {
   Samples depth;
@@ -47,4 +53,6 @@ inline void additive_upsample_row(const AdditiveUpsampleRow& row, int y) {
   }
 }
 
-}  // namespace aftershade::filter
+}  // namespace aftershade::filter::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,4 +1,8 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/filter/bilateral_blur.cpp"  // this file, compiled once a SIMD target
 #include "core/filter/bilateral_blur.h"
+
+#include <hwy/foreach_target.h>
 
 #include <algorithm>
 #include <cmath>
@@ -6,6 +10,36 @@
 #include "core/filter/bilateral_blur_kernel.h"
 #include "core/parallel/rows.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::filter::HWY_NAMESPACE {
+
+Plane blur_both_ways(const BilateralBlurParams& params, float radius, ConstPlaneView value, const SampleGrid& grid,
+                     const Surface& surface) {
+  constexpr int kBand = 16;  // rows whose points are worked out together
+  const int reach = static_cast<int>(std::ceil(radius));
+  const float sigma = (radius + 1) / 2;
+  const EdgeTolerance tolerance(params.edge_distance_m, params.edge_footprints, grid.step, surface.projection);
+  const GridSamples texels(grid);
+  const auto pass = [&](ConstPlaneView in, int dx, int dy) {
+    Plane out = Plane::for_overwrite(in.width, in.height);
+    for_rows((in.height + kBand - 1) / kBand, [&](int band) {
+      const int first = band * kBand, last = std::min(first + kBand, in.height) - 1;
+      const TexelPoints points(texels, Lens(surface.projection), std::max(first - dy * reach, 0),
+                               std::min(last + dy * reach, in.height - 1));
+      for (int y = first; y <= last; ++y)
+        bilateral_blur_row({texels, points, NormalSamples(surface), tolerance, Samples(in), dx, dy, reach,
+                            radius - static_cast<float>(reach - 1), 1 / (2 * sigma * sigma), out.row(y)},
+                           y);
+    });
+    return out;
+  };
+  return pass(pass(value, 1, 0), 0, 1);
+}
+
+}  // namespace aftershade::filter::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace aftershade::filter {
 
 float radius_texels(const BilateralBlurParams& params, int display_height) {
@@ -35,23 +69,16 @@ const params::Table& BilateralBlurParams::table() {
   return records;
 }
 
+namespace {
+HWY_EXPORT(blur_both_ways);
+}  // namespace
+
 Plane bilateral_blur(const BilateralBlurParams& params, ConstPlaneView value, const SampleGrid& grid,
                      const Surface& surface) {
   const float radius = radius_texels(params, surface.display_height);
   if (!(radius > 0)) return copy_of(value);
-  const int reach = static_cast<int>(std::ceil(radius));
-  const float sigma = (radius + 1) / 2;
-  const EdgeTolerance tolerance(params.edge_distance_m, params.edge_footprints, grid.step, surface.projection);
-  const auto pass = [&](ConstPlaneView in, int dx, int dy) {
-    Plane out(in.width, in.height);
-    for_rows(in.height, [&](int y) {
-      bilateral_blur_row({GridSamples(grid), NormalSamples(surface), Lens(surface.projection), tolerance, Samples(in),
-                          dx, dy, reach, radius - static_cast<float>(reach - 1), 1 / (2 * sigma * sigma), out.row(y)},
-                         y);
-    });
-    return out;
-  };
-  return pass(pass(value, 1, 0), 0, 1);
+  return HWY_DYNAMIC_DISPATCH(blur_both_ways)(params, radius, value, grid, surface);
 }
 
 }  // namespace aftershade::filter
+#endif

@@ -1,9 +1,40 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/filter/bilateral_upsample.cpp"  // this file, compiled once a SIMD target
 #include "core/filter/bilateral_upsample.h"
+
+#include <hwy/foreach_target.h>
 
 #include "core/filter/additive_upsample_kernel.h"
 #include "core/filter/bilateral_upsample_kernel.h"
 #include "core/parallel/rows.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::filter::HWY_NAMESPACE {
+
+void upsample_additively(const BilateralUpsampleParams& params, ConstPlaneView value, const SampleGrid& grid,
+                         const Surface& surface, Plane& out) {
+  const bool literal = params.weights == UpsampleWeights::additive_literal;
+  for_rows(out.height(), [&](int y) {
+    additive_upsample_row({Samples(surface.depth), Samples(grid.depth), Samples(value), grid.origin_x, grid.origin_y,
+                           params.additive_range_m, literal, out.row(y)},
+                          y);
+  });
+}
+
+void upsample_multiplicatively(const BilateralUpsampleParams& params, ConstPlaneView value, const SampleGrid& grid,
+                               const Surface& surface, Plane& out) {
+  const EdgeTolerance tolerance(params.edge_distance_m, params.edge_footprints, grid.step, surface.projection);
+  for_rows(out.height(), [&](int y) {
+    bilateral_upsample_row({GridSamples(grid), NormalSamples(surface), Lens(surface.projection), tolerance,
+                            Samples(surface.depth), Samples(value), grid.origin_x, grid.origin_y, out.row(y)},
+                           y);
+  });
+}
+
+}  // namespace aftershade::filter::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace aftershade::filter {
 
 const params::Table& BilateralUpsampleParams::table() {
@@ -23,26 +54,21 @@ const params::Table& BilateralUpsampleParams::table() {
   return records;
 }
 
+namespace {
+HWY_EXPORT(upsample_additively);
+HWY_EXPORT(upsample_multiplicatively);
+}  // namespace
+
 Plane bilateral_upsample(const BilateralUpsampleParams& params, ConstPlaneView value, const SampleGrid& grid,
                          const Surface& surface) {
   if (grid.step == 1) return copy_of(value);
-  Plane out(surface.depth.width, surface.depth.height, 1.0F);
-  if (params.weights != UpsampleWeights::multiplicative) {
-    const bool literal = params.weights == UpsampleWeights::additive_literal;
-    for_rows(out.height(), [&](int y) {
-      additive_upsample_row({Samples(surface.depth), Samples(grid.depth), Samples(value), grid.origin_x, grid.origin_y,
-                             params.additive_range_m, literal, out.row(y)},
-                            y);
-    });
-    return out;
-  }
-  const EdgeTolerance tolerance(params.edge_distance_m, params.edge_footprints, grid.step, surface.projection);
-  for_rows(out.height(), [&](int y) {
-    bilateral_upsample_row({GridSamples(grid), NormalSamples(surface), Lens(surface.projection), tolerance,
-                            Samples(surface.depth), Samples(value), grid.origin_x, grid.origin_y, out.row(y)},
-                           y);
-  });
+  Plane out = Plane::for_overwrite(surface.depth.width, surface.depth.height);
+  if (params.weights == UpsampleWeights::multiplicative)
+    HWY_DYNAMIC_DISPATCH(upsample_multiplicatively)(params, value, grid, surface, out);
+  else
+    HWY_DYNAMIC_DISPATCH(upsample_additively)(params, value, grid, surface, out);
   return out;
 }
 
 }  // namespace aftershade::filter
+#endif

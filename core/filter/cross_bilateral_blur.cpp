@@ -1,58 +1,35 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/filter/cross_bilateral_blur.cpp"  // this file, compiled once a SIMD target
 #include "core/filter/cross_bilateral_blur.h"
+
+#include <hwy/foreach_target.h>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <utility>
+#include <span>
 #include <vector>
 
 #include "core/filter/cross_bilateral_blur_kernel.h"
+#include "core/filter/cross_bilateral_taps.h"
 #include "core/parallel/rows.h"
 
-namespace aftershade::filter {
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::filter::HWY_NAMESPACE {
 
-namespace {
-
-constexpr float kPatternReach = 4;  ///< pixels: half the 4x4 pattern of a half-resolution AO; the least radius
-
-int radius_in_pixels(const CrossBilateralBlurParams& params, int display_height) {
-  const float radius = std::max(scaled_px(params.radius_px, params.reference_height_px, display_height),
-                                std::min(params.radius_px, kPatternReach));
-  return static_cast<int>(std::lround(radius));
-}
-
-/// A tap at positive offsets: at pixel `first`, or half way to `second`.
-struct KernelTap {
-  int first, second;
-  float log2_weight;
-  float distance() const { return static_cast<float>(first + second) * 0.5F; }
+/// A pixel's value in a row of AO and its depth in the row beside it.
+struct RowPair {
+  const float *ao, *depth;
 };
 
-/// Seed 000, "HLSL: Adaptive Sampling". The listing's last pair runs past a radius that is not a multiple of 4 or one
-/// less; here that is the pixel alone.
-std::vector<KernelTap> kernel_of(KernelSampling sampling, int radius) {
-  const float sigma = static_cast<float>(radius + 1) / 2, falloff = 1 / (2 * sigma * sigma);
-  const auto log2_weight = [&](float r) { return -r * r * falloff; };
-  std::vector<KernelTap> taps;
-  int r = 1;
-  const int inner = sampling == KernelSampling::brute_force ? radius : radius / 2;
-  for (; r <= inner; ++r) taps.push_back({r, r, log2_weight(static_cast<float>(r))});
-  for (; r < radius; r += 2) {
-    const float at = static_cast<float>(r);
-    const bool exact = sampling == KernelSampling::adaptive_exact_weights;
-    taps.push_back({r, r + 1, exact ? 1 + log2_weight(at + 0.5F) : log2_weight(at)});
-  }
-  if (r == radius) taps.push_back({r, r, log2_weight(static_cast<float>(r))});
-  return taps;
-}
-
-/// The taps on one side; `rows(a, b)` gives (AO, depth) of the pixels at offset a, or of the means between a and b.
-template <class Rows>
-std::vector<CrossTap> side_of(const std::vector<KernelTap>& kernel, int sign, Rows&& rows) {
+/// The taps on one side; `row_at(r)` gives the rows in which the pixels at offset r lie at the pixels' own x.
+template <class RowAt>
+std::vector<CrossTap> side_of(std::span<const KernelTap> kernel, int sign, RowAt&& row_at) {
   std::vector<CrossTap> taps;
+  taps.reserve(kernel.size());
   for (const KernelTap& tap : kernel) {
-    const auto [ao, depth] = rows(sign * tap.first, sign * tap.second);
-    taps.push_back({ao, depth, tap.log2_weight, tap.distance()});
+    const RowPair one = row_at(sign * tap.first);
+    const RowPair next = tap.pair ? row_at(sign * (tap.first + 1)) : RowPair{};
+    taps.push_back({one.ao, one.depth, next.ao, next.depth, tap.log2_weight, tap.distance()});
   }
   return taps;
 }
@@ -62,10 +39,6 @@ class PaddedRow {
  public:
   PaddedRow(int width, int reach) : values_(static_cast<size_t>(width + 2 * reach + Plane::kPadding)), reach_(reach) {}
   float* begin() { return values_.data() + reach_; }
-  /// Means of each value of `row` and the next.
-  void hold_pairs_of(const PaddedRow& row, int width) {
-    mean_row(row.values_.data(), row.values_.data() + 1, width + 2 * reach_ - 1, values_.data());
-  }
   void repeat_border(int width) {
     std::fill_n(values_.data(), reach_, begin()[0]);
     std::fill_n(begin() + width, reach_, begin()[width - 1]);
@@ -85,6 +58,58 @@ PackRow pack_row_at(const CrossBilateralBlurParams& params, ConstPlaneView ao, c
   const int above = bilinear ? static_cast<int>(v) : block, below = std::min(above + 1, ao.height - 1);
   return {ao.row(above), ao.row(below), v - static_cast<float>(above), ao.width,    grid.step, grid.origin_x,
           bilinear,      depth.row(y),  params.sharpness_per_m,        depth.width, nullptr,   nullptr};
+}
+
+void blur_x(const CrossBilateralBlurParams& params, std::span<const KernelTap> kernel, int radius, ConstPlaneView ao,
+            const SampleGrid& grid, ConstPlaneView depth, PackedAo& out) {
+  const int width = depth.width;
+  for_rows(depth.height, [&](int y) {
+    PaddedRow value(width, radius), z(width, radius);
+    PackRow pack = pack_row_at(params, ao, grid, depth, y);
+    pack.ao = value.begin();
+    pack.scaled_depth = z.begin();
+    pack_row(pack);
+    value.repeat_border(width);
+    z.repeat_border(width);
+    std::copy_n(z.begin(), width, out.depth.row(y));
+    const auto row_at = [&](int r) { return RowPair{value.begin() + r, z.begin() + r}; };
+    const auto before = side_of(kernel, -1, row_at), after = side_of(kernel, 1, row_at);
+    cross_bilateral_row(
+        {value.begin(), z.begin(), before, after, params.depth_slope && radius > 0, width, out.ao.row(y)});
+  });
+}
+
+void blur_y(const CrossBilateralBlurParams& params, std::span<const KernelTap> kernel, int radius,
+            const PackedAo& blurred_x, Plane& out) {
+  const int width = out.width(), height = out.height();
+  for_rows(height, [&](int y) {
+    const auto row_at = [&](int r) {
+      const int at = std::clamp(y + r, 0, height - 1);
+      return RowPair{blurred_x.ao.row(at), blurred_x.depth.row(at)};
+    };
+    const auto before = side_of(kernel, -1, row_at), after = side_of(kernel, 1, row_at);
+    cross_bilateral_row({blurred_x.ao.row(y), blurred_x.depth.row(y), before, after, params.depth_slope && radius > 0,
+                         width, out.row(y)});
+  });
+}
+
+}  // namespace aftershade::filter::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace aftershade::filter {
+
+namespace {
+
+HWY_EXPORT(blur_x);
+HWY_EXPORT(blur_y);
+
+constexpr float kPatternReach = 4;  ///< pixels: half the 4x4 pattern of a half-resolution AO; the least radius
+
+int radius_in_pixels(const CrossBilateralBlurParams& params, int display_height) {
+  const float radius = std::max(scaled_px(params.radius_px, params.reference_height_px, display_height),
+                                std::min(params.radius_px, kPatternReach));
+  return static_cast<int>(std::lround(radius));
 }
 
 }  // namespace
@@ -114,54 +139,16 @@ const params::Table& CrossBilateralBlurParams::table() {
 
 PackedAo cross_bilateral_blur_x(const CrossBilateralBlurParams& params, ConstPlaneView ao, const SampleGrid& grid,
                                 ConstPlaneView depth, int display_height) {
-  const int radius = radius_in_pixels(params, display_height), width = depth.width;
-  const auto kernel = kernel_of(params.sampling, radius);
-  PackedAo out{Plane(width, depth.height), Plane(width, depth.height)};
-  for_rows(depth.height, [&](int y) {
-    PaddedRow value(width, radius), z(width, radius), value_pairs(width, radius), z_pairs(width, radius);
-    PackRow pack = pack_row_at(params, ao, grid, depth, y);
-    pack.ao = value.begin();
-    pack.scaled_depth = z.begin();
-    pack_row(pack);
-    value.repeat_border(width);
-    z.repeat_border(width);
-    value_pairs.hold_pairs_of(value, width);
-    z_pairs.hold_pairs_of(z, width);
-    std::copy_n(z.begin(), width, out.depth.row(y));
-    const auto rows = [&](int a, int b) {
-      const int left = std::min(a, b);  // where a pair is held
-      return a == b ? std::pair(value.begin() + a, z.begin() + a)
-                    : std::pair(value_pairs.begin() + left, z_pairs.begin() + left);
-    };
-    const auto before = side_of(kernel, -1, rows), after = side_of(kernel, 1, rows);
-    cross_bilateral_row(
-        {value.begin(), z.begin(), before, after, params.depth_slope && radius > 0, width, out.ao.row(y)});
-  });
+  const int radius = radius_in_pixels(params, display_height);
+  PackedAo out{Plane::for_overwrite(depth.width, depth.height), Plane::for_overwrite(depth.width, depth.height)};
+  HWY_DYNAMIC_DISPATCH(blur_x)(params, kernel_of(params.sampling, radius), radius, ao, grid, depth, out);
   return out;
 }
 
 Plane cross_bilateral_blur_y(const CrossBilateralBlurParams& params, const PackedAo& blurred_x, int display_height) {
   const int radius = radius_in_pixels(params, display_height);
-  const int width = blurred_x.ao.width(), height = blurred_x.ao.height();
-  const auto kernel = kernel_of(params.sampling, radius);
-  const auto padded = static_cast<size_t>(width + Plane::kPadding);
-  Plane out(width, height);
-  for_rows(height, [&](int y) {
-    const auto pairs = std::make_unique_for_overwrite<float[]>(4 * kernel.size() * padded);  // at most
-    float* free = pairs.get();
-    const auto mean_of = [&](const Plane& plane, int a, int b) -> const float* {
-      if (a == b) return plane.row(a);
-      mean_row(plane.row(a), plane.row(b), width, free);
-      return std::exchange(free, free + padded);
-    };
-    const auto rows = [&](int a, int b) {
-      const int row_a = std::clamp(y + a, 0, height - 1), row_b = std::clamp(y + b, 0, height - 1);
-      return std::pair(mean_of(blurred_x.ao, row_a, row_b), mean_of(blurred_x.depth, row_a, row_b));
-    };
-    const auto before = side_of(kernel, -1, rows), after = side_of(kernel, 1, rows);
-    cross_bilateral_row({blurred_x.ao.row(y), blurred_x.depth.row(y), before, after, params.depth_slope && radius > 0,
-                         width, out.row(y)});
-  });
+  Plane out = Plane::for_overwrite(blurred_x.ao.width(), blurred_x.ao.height());
+  HWY_DYNAMIC_DISPATCH(blur_y)(params, kernel_of(params.sampling, radius), radius, blurred_x, out);
   return out;
 }
 
@@ -172,3 +159,4 @@ Plane cross_bilateral_blur(const CrossBilateralBlurParams& params, ConstPlaneVie
 }
 
 }  // namespace aftershade::filter
+#endif

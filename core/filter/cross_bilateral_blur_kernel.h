@@ -1,9 +1,16 @@
-#pragma once
+#if defined(AFTERSHADE_CORE_FILTER_CROSS_BILATERAL_BLUR_KERNEL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AFTERSHADE_CORE_FILTER_CROSS_BILATERAL_BLUR_KERNEL_H
+#undef AFTERSHADE_CORE_FILTER_CROSS_BILATERAL_BLUR_KERNEL_H
+#else
+#define AFTERSHADE_CORE_FILTER_CROSS_BILATERAL_BLUR_KERNEL_H
+#endif
+#include <initializer_list>
 #include <span>
 
 #include "core/filter/lane_geometry.h"
 
-namespace aftershade::filter {
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::filter::HWY_NAMESPACE {
 
 /// Brings one row of AO on a grid to the pixels, beside their scaled depth.
 struct PackRow {
@@ -44,14 +51,11 @@ inline void pack_row(const PackRow& row) {
   }
 }
 
-/// What a linear tap between two pixels reads, for a row of them.
-inline void mean_row(const float* a, const float* b, int width, float* out) {
-  for (int x = 0; x < width; x += kLanes) store(out + x, (load(a + x) + load(b + x)) * 0.5F);
-}
-
-/// For pixel x of the row at work: the value and scaled depth at ao + x and depth + x.
+/// For pixel x of the row at work: the value and scaled depth at ao + x and depth + x; with `next_ao` and `next_depth`
+/// the means of these and those, which is what a linear tap between two pixels reads.
 struct CrossTap {
   const float *ao, *depth;
+  const float *next_ao, *next_depth;
   float log2_weight;  ///< of the distance alone
   float distance;     ///< of the tap from the centre, pixels
 };
@@ -65,6 +69,10 @@ struct CrossBilateralRow {
   float* out;
 };
 
+inline Float tapped(const float* one, const float* next, int x) {
+  return next != nullptr ? (load(one + x) + load(next + x)) * 0.5F : load(one + x);
+}
+
 /// seed 000, CrossBilateralWeight: exp2(-r^2 falloff - dz^2) with pre-scaled depths. The mean is taken of differences
 /// from the centre (weight 1), so a constant stays the same to the bit.
 inline void cross_bilateral_row(const CrossBilateralRow& row) {
@@ -76,10 +84,10 @@ inline void cross_bilateral_row(const CrossBilateralRow& row) {
       const Float rise = row.depth_slope ? load(side.front().depth + x) - z0 : Float(0.0F);
       const Float slope = select(is_finite(rise), rise, 0.0F);
       for (const CrossTap& tap : side) {
-        const Float straight = load(tap.depth + x) - z0;
+        const Float straight = tapped(tap.depth, tap.next_depth, x) - z0;
         const Float dz = row.depth_slope ? straight - tap.distance * slope : straight;
         const Float w = exp2(tap.log2_weight - dz * dz);
-        sum += w * (load(tap.ao + x) - base);
+        sum += w * (tapped(tap.ao, tap.next_ao, x) - base);
         weights += w;
       }
     }
@@ -87,4 +95,6 @@ inline void cross_bilateral_row(const CrossBilateralRow& row) {
   }
 }
 
-}  // namespace aftershade::filter
+}  // namespace aftershade::filter::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -7,6 +7,8 @@
 #define AFTERSHADE_CORE_FILTER_LANE_GEOMETRY_H
 #endif
 #include <algorithm>
+#include <cstddef>
+#include <type_traits>
 
 #include "core/camera/camera.h"
 #include "core/filter/sample_grid.h"
@@ -44,6 +46,38 @@ inline Point unproject(const Lens& lens, Float x, Float y, Float z) {
   return {(x + 0.5F - lens.cx) * lens.inv_fx * scale, -((y + 0.5F - lens.cy) * lens.inv_fy * scale), z};
 }
 
+/// kLanes neighbouring columns of planes of `width`, from `first` on. Unless kInside, which says that all of them are
+/// inside the image, those outside have the border's values.
+template <bool kInside>
+struct Columns {
+  Columns(int first_column, int width) : first(first_column), index(iota(first_column)), inside(Float(0.0F) < 1.0F) {
+    if constexpr (kInside) return;
+    inside = (index >= Int(0)) & (index < Int(width));
+    index = clamp(index, 0, width - 1);
+  }
+  int first;
+  Int index;
+  Mask inside;
+  Float operator()(const float* row) const {
+    if constexpr (kInside)
+      return load(row + first);
+    else
+      return gather(row, index);
+  }
+};
+
+/// Calls vector(x0, kInside) as a constant for the steps of a row of `width`, all whose columns x0 - before ... x0 +
+/// kLanes - 1 + after lie inside the image and the others.
+template <class Vector>
+void for_each_vector(int width, int before, int after, Vector&& vector) {
+  for (int x0 = 0; x0 < width; x0 += kLanes) {
+    if (x0 >= before && x0 + kLanes + after <= width)
+      vector(x0, std::true_type());
+    else
+      vector(x0, std::false_type());
+  }
+}
+
 /// A plane whose values are gathered by pixel index.
 struct Samples {
   explicit Samples(ConstPlaneView view)
@@ -54,27 +88,57 @@ struct Samples {
   Mask contains(Int x, Int y) const { return (x >= Int(0)) & (x < Int(width)) & (y >= Int(0)) & (y < Int(height)); }
   Int clamp_x(Int x) const { return clamp(x, 0, width - 1); }
   Int clamp_y(Int y) const { return clamp(y, 0, height - 1); }
+  const float* row(int y) const { return data + static_cast<std::ptrdiff_t>(y) * stride; }
 };
+
+/// `n`, or (0,0,0) where it is not finite.
+inline Point finite_normal(Point n) { return select(is_finite(dot(n, n)), n, Point{0.0F, 0.0F, 0.0F}); }
 
 /// The normal at pixels inside the image; (0,0,0) where it is not finite.
 struct NormalSamples {
   explicit NormalSamples(const Surface& s) : nx(s.nx), ny(s.ny), nz(s.nz) {}
   Samples nx, ny, nz;
-  Point operator()(Int x, Int y) const {
-    const Point n{nx(x, y), ny(x, y), nz(x, y)};
-    return select(is_finite(dot(n, n)), n, Point{0.0F, 0.0F, 0.0F});
+  Point operator()(Int x, Int y) const { return finite_normal({nx(x, y), ny(x, y), nz(x, y)}); }
+  template <bool kInside>
+  Point operator()(const Columns<kInside>& x, int y) const {
+    return finite_normal({x(nx.row(y)), x(ny.row(y)), x(nz.row(y))});
   }
 };
 
 /// Texels of a SampleGrid and the pixels that they stand for.
 struct GridSamples {
   explicit GridSamples(const SampleGrid& grid)
-      : depth(grid.depth), pixel_x(grid.pixel_x), pixel_y(grid.pixel_y), every_pixel(grid.step == 1) {}
-  Samples depth, pixel_x, pixel_y;
+      : depth(grid.depth),
+        pixel_x(grid.pixel_x),
+        pixel_y(grid.pixel_y),
+        nx(grid.normal[0]),
+        ny(grid.normal[1]),
+        nz(grid.normal[2]),
+        every_pixel(grid.step == 1) {}
+  Samples depth, pixel_x, pixel_y, nx, ny, nz;
   bool every_pixel;
   Float x_of(Int x, Int y) const { return every_pixel ? to_float(x) : pixel_x(x, y); }
   Float y_of(Int x, Int y) const { return every_pixel ? to_float(y) : pixel_y(x, y); }
   Point point(const Lens& lens, Int x, Int y) const { return unproject(lens, x_of(x, y), y_of(x, y), depth(x, y)); }
+  template <bool kInside>
+  Float x_of(const Columns<kInside>& x, int y) const {
+    return every_pixel ? to_float(x.index) : x(pixel_x.row(y));
+  }
+  template <bool kInside>
+  Float y_of(const Columns<kInside>& x, int y) const {
+    return every_pixel ? Float(static_cast<float>(y)) : x(pixel_y.row(y));
+  }
+  template <bool kInside>
+  Point point(const Lens& lens, const Columns<kInside>& x, int y) const {
+    return unproject(lens, x_of(x, y), y_of(x, y), x(depth.row(y)));
+  }
+  /// The normal at the texels' pixels.
+  template <bool kInside>
+  Point normal(const NormalSamples& normals, const Columns<kInside>& x, int y) const {
+    if (every_pixel) return normals(x, y);
+    if (nx.data == nullptr) return normals(to_int(x_of(x, y)), to_int(y_of(x, y)));
+    return {x(nx.row(y)), x(ny.row(y)), x(nz.row(y))};
+  }
 };
 
 /// How far from a pixel's tangent plane another point may lie and still count as the same surface:

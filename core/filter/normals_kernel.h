@@ -1,12 +1,41 @@
-#pragma once
+#if defined(AFTERSHADE_CORE_FILTER_NORMALS_KERNEL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AFTERSHADE_CORE_FILTER_NORMALS_KERNEL_H
+#undef AFTERSHADE_CORE_FILTER_NORMALS_KERNEL_H
+#else
+#define AFTERSHADE_CORE_FILTER_NORMALS_KERNEL_H
+#endif
+#include <array>
+
 #include "core/filter/lane_geometry.h"
 
-namespace aftershade::filter {
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::filter::HWY_NAMESPACE {
+
+/// A row of depth with kBorder pixels more at both sides, and what is linear in it across the image of a plane: 1 / z,
+/// in orthographic views z itself.
+struct PlanarRow {
+  const float *z, *planar;
+};
+inline constexpr int kBorder = 2;
+inline constexpr float kOutside = -1.0F;  ///< the depth of what lies outside the image
+
+/// From the first pixel of the padded row on; `depth` null: outside the image.
+inline void planar_row(const float* depth, int width, bool orthographic, float* z, float* planar) {
+  if (depth != nullptr)
+    for (int x = 0; x < width; x += kLanes) store(z + kBorder + x, load(depth + x));
+  else
+    std::fill_n(z + kBorder, width, kOutside);
+  std::fill_n(z, kBorder, kOutside);
+  std::fill_n(z + kBorder + width, kBorder, kOutside);
+  for (int x = 0; x < width + 2 * kBorder; x += kLanes)
+    store(planar + x, orthographic ? load(z + x) : 1.0F / load(z + x));
+}
 
 struct NormalsRow {
-  Samples depth;
+  std::array<PlanarRow, 2 * kBorder + 1> rows;  ///< at their first pixels inside; those of y - 2 to y + 2
   Lens lens;
   float fx, fy;
+  int width;
   float *nx, *ny, *nz;  ///< out
 };
 
@@ -15,20 +44,15 @@ struct Side {
   Float z, miss;
 };
 
-/// 1 / z is linear across the image of a plane, in orthographic views z itself.
-inline Float planar(const NormalsRow& row, Float z) { return row.lens.orthographic ? z : 1.0F / z; }
-
 /// The side in direction (dx, dy). Without a second pixel the depth is taken to stay what it is at the first;
 /// without a first, the miss is infinite.
-inline Side side(const NormalsRow& row, Int x, Int y, Float z, int dx, int dy) {
-  const auto depth_at = [&](int steps) {
-    const Int tx = x + Int(dx * steps), ty = y + Int(dy * steps);
-    return select(row.depth.contains(tx, ty), row.depth(row.depth.clamp_x(tx), row.depth.clamp_y(ty)), -1.0F);
-  };
-  const Float near = depth_at(1), far = depth_at(2);
-  const Float a = planar(row, near), b = planar(row, far);
+inline Side side(const NormalsRow& row, int x0, Float planar, int dx, int dy) {
+  const PlanarRow& first = row.rows[static_cast<size_t>(kBorder + dy)];
+  const PlanarRow& second = row.rows[static_cast<size_t>(kBorder + 2 * dy)];
+  const Float near = load(first.z + x0 + dx), far = load(second.z + x0 + 2 * dx);
+  const Float a = load(first.planar + x0 + dx), b = load(second.planar + x0 + 2 * dx);
   const Float predicted = select(is_surface(far), 2.0F * a - b, a);
-  return {near, select(is_surface(near), abs(predicted - planar(row, z)), HUGE_VALF)};
+  return {near, select(is_surface(near), abs(predicted - planar), HUGE_VALF)};
 }
 
 /// Depth slope k and depth ratio q toward the better side, for a step of +1 pixel: k = f (z(+1) - z) / z, q = z(+1) / z
@@ -50,14 +74,14 @@ inline Slope slope(const NormalsRow& row, Float z, Side minus, Side plus, float 
 ///   dP/dx = (u kx + qx, v kx, kx),  dP/dy = (u ky, v ky - qy, ky)
 /// which faces the camera for every visible surface.
 inline void normals_row(const NormalsRow& row, int y) {
-  for (int x0 = 0; x0 < row.depth.width; x0 += kLanes) {
-    const Int x = iota(x0), iy = y;
-    const Float z = load(row.depth.data + y * row.depth.stride + x0);
-    const Slope sx = slope(row, z, side(row, x, iy, z, -1, 0), side(row, x, iy, z, 1, 0), row.fx);
-    const Slope sy = slope(row, z, side(row, x, iy, z, 0, -1), side(row, x, iy, z, 0, 1), row.fy);
-    const Float ray = row.lens.orthographic ? 0.0F : 1.0F;
-    const Float u = (to_float(x) + 0.5F - row.lens.cx) * row.lens.inv_fx * ray;
-    const Float v = -((to_float(iy) + 0.5F - row.lens.cy) * row.lens.inv_fy) * ray;
+  const PlanarRow& own = row.rows[kBorder];
+  const float ray = row.lens.orthographic ? 0.0F : 1.0F;
+  const Float v = -((Float(static_cast<float>(y)) + 0.5F - row.lens.cy) * row.lens.inv_fy) * ray;
+  for (int x0 = 0; x0 < row.width; x0 += kLanes) {
+    const Float z = load(own.z + x0), planar = load(own.planar + x0);
+    const Slope sx = slope(row, z, side(row, x0, planar, -1, 0), side(row, x0, planar, 1, 0), row.fx);
+    const Slope sy = slope(row, z, side(row, x0, planar, 0, -1), side(row, x0, planar, 0, 1), row.fy);
+    const Float u = (to_float(iota(x0)) + 0.5F - row.lens.cx) * row.lens.inv_fx * ray;
     const Point tx{u * sx.k + sx.q, v * sx.k, sx.k}, ty{u * sy.k, v * sy.k - sy.q, sy.k};
     const Point n{tx.y * ty.z - tx.z * ty.y, tx.z * ty.x - tx.x * ty.z, tx.x * ty.y - tx.y * ty.x};
     const Float length = sqrt(dot(n, n));
@@ -68,4 +92,6 @@ inline void normals_row(const NormalsRow& row, int y) {
   }
 }
 
-}  // namespace aftershade::filter
+}  // namespace aftershade::filter::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -14,15 +14,17 @@ class DepthPyramid {
  public:
   /// `levels` >= 1, with level 0. `origin` is the absolute coordinate of depth's index (0, 0), as in Surface.
   DepthPyramid(ConstPlaneView depth, int levels, int origin_x = 0, int origin_y = 0);
-  int levels() const { return static_cast<int>(mips_.size()) + 1; }
-  ConstPlaneView level(int m) const { return m == 0 ? base_ : ConstPlaneView(mips_.at(static_cast<size_t>(m - 1))); }
+  int levels() const { return static_cast<int>(levels_.size()); }
+  ConstPlaneView level(int m) const { return levels_.at(static_cast<size_t>(m)); }
   int origin_x() const { return origin_x_; }
   int origin_y() const { return origin_y_; }
+  /// All levels but 0 lie in this one plane, so their strides are the same.
+  ConstPlaneView mips() const { return mips_; }
 
  private:
-  ConstPlaneView base_;
   int origin_x_, origin_y_;
-  std::vector<Plane> mips_;
+  Plane mips_;
+  std::vector<ConstPlaneView> levels_;
 };
 
 }  // namespace aftershade::filter

@@ -1,46 +1,59 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/filter/sample_grid.cpp"  // this file, compiled once a SIMD target
 #include "core/filter/sample_grid.h"
 
-#include <cmath>
-#include <limits>
+#include <hwy/foreach_target.h>
 
+#include "core/filter/sample_grid_kernel.h"
 #include "core/parallel/rows.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace aftershade::filter::HWY_NAMESPACE {
+
+void fill_full_grid(const Surface& surface, SampleGrid& grid) {
+  for_rows(grid.height(),
+           [&](int y) { surface_depth_row(surface.depth.row(y), surface.depth.width, grid.depth.row(y)); });
+}
+
+void fill_half_grid(const Surface& surface, SampleGrid& grid) {
+  const auto normal = [&](size_t axis, int y) {
+    return grid.normal[axis].empty() ? nullptr : grid.normal[axis].row(y);
+  };
+  for_rows(grid.height(), [&](int y) {
+    half_grid_row({.depth = surface.depth,
+                   .normals = NormalSamples(surface),
+                   .origin_x = grid.origin_x,
+                   .origin_y = grid.origin_y,
+                   .block_x = surface.origin_x >> 1,
+                   .block_y = (surface.origin_y >> 1) + y,
+                   .width = grid.width(),
+                   .out_depth = grid.depth.row(y),
+                   .out_x = grid.pixel_x.row(y),
+                   .out_y = grid.pixel_y.row(y),
+                   .out_normal = {normal(0, y), normal(1, y), normal(2, y)}},
+                  y);
+  });
+}
+
+}  // namespace aftershade::filter::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace aftershade::filter {
 
 namespace {
 
-constexpr float kBackground = std::numeric_limits<float>::infinity();
-
-float surface_depth(float z) { return std::isfinite(z) && z > 0 ? z : kBackground; }
+HWY_EXPORT(fill_full_grid);
+HWY_EXPORT(fill_half_grid);
 
 int blocks(int origin, int size) { return size <= 0 ? 0 : ((origin + size - 1) >> 1) - (origin >> 1) + 1; }
-
-struct Pick {
-  int x = 0, y = 0;
-  float depth = kBackground;
-};
-
-/// The nearest or farthest surface of the block whose first pixel is (bx, by); its first pixel inside the window where
-/// there is only background.
-Pick pick(ConstPlaneView depth, int bx, int by, bool nearest) {
-  Pick best{std::max(bx, 0), std::max(by, 0)};
-  for (int y = std::max(by, 0); y < std::min(by + 2, depth.height); ++y)
-    for (int x = std::max(bx, 0); x < std::min(bx + 2, depth.width); ++x) {
-      const float z = surface_depth(depth(x, y));
-      const bool better = nearest ? z < best.depth : z > best.depth || best.depth == kBackground;
-      if (z != kBackground && better) best = {x, y, z};
-    }
-  return best;
-}
 
 }  // namespace
 
 SampleGrid full_grid(const Surface& surface) {
   SampleGrid grid;
-  grid.depth = Plane(surface.depth.width, surface.depth.height, kBackground);
-  for_rows(grid.height(), [&](int y) {
-    for (int x = 0; x < grid.width(); ++x) grid.depth(x, y) = surface_depth(surface.depth(x, y));
-  });
+  grid.depth = Plane::for_overwrite(surface.depth.width, surface.depth.height);
+  HWY_DYNAMIC_DISPATCH(fill_full_grid)(surface, grid);
   return grid;
 }
 
@@ -50,29 +63,24 @@ SampleGrid half_grid(const Surface& surface) {
   SampleGrid grid{2,
                   -(surface.origin_x & 1),
                   -(surface.origin_y & 1),
-                  Plane(width, height, kBackground),
-                  Plane(width, height),
-                  Plane(width, height)};
-  const int block_x = surface.origin_x >> 1, block_y = surface.origin_y >> 1;
-  for_rows(height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      const bool nearest = ((block_x + x + block_y + y) & 1) == 0;
-      const Pick p = pick(surface.depth, grid.origin_x + 2 * x, grid.origin_y + 2 * y, nearest);
-      grid.depth(x, y) = p.depth;
-      grid.pixel_x(x, y) = static_cast<float>(p.x);
-      grid.pixel_y(x, y) = static_cast<float>(p.y);
-    }
-  });
+                  Plane::for_overwrite(width, height),
+                  Plane::for_overwrite(width, height),
+                  Plane::for_overwrite(width, height)};
+  if (!surface.nx.empty())
+    for (Plane& axis : grid.normal) axis = Plane::for_overwrite(width, height);
+  HWY_DYNAMIC_DISPATCH(fill_half_grid)(surface, grid);
   return grid;
 }
 
 Plane values_at_pixels(ConstPlaneView values, const SampleGrid& grid, const Surface& surface) {
-  Plane out(surface.depth.width, surface.depth.height);
+  Plane out = Plane::for_overwrite(surface.depth.width, surface.depth.height);
+  const int shift = grid.step == 2 ? 1 : 0;
   for_rows(out.height(), [&](int y) {
-    const float* row = values.row((y - grid.origin_y) / grid.step);
-    for (int x = 0; x < out.width(); ++x) out(x, y) = row[(x - grid.origin_x) / grid.step];
+    const float* row = values.row((y - grid.origin_y) >> shift);
+    for (int x = 0; x < out.width(); ++x) out(x, y) = row[(x - grid.origin_x) >> shift];
   });
   return out;
 }
 
 }  // namespace aftershade::filter
+#endif

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+
 #include "core/filter/surface.h"
 #include "core/image/plane.h"
 
@@ -13,6 +15,7 @@ struct SampleGrid {
   int origin_x = 0, origin_y = 0;  ///< window index of block (0,0)'s first pixel: 0, or -1 when it lies outside
   Plane depth;                     ///< metres, of the picked pixel
   Plane pixel_x, pixel_y;          ///< window index of the picked pixel, as float; empty when step is 1
+  std::array<Plane, 3> normal{};   ///< of the picked pixel, (0,0,0) where there is none; may be empty
   int width() const { return depth.width(); }
   int height() const { return depth.height(); }
 };

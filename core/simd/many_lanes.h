@@ -50,6 +50,7 @@ HWY_INLINE Int operator|(Int a, Int b) { return hn::Or(a.v, b.v); }
 HWY_INLINE Int operator^(Int a, Int b) { return hn::Xor(a.v, b.v); }
 HWY_INLINE Int operator<<(Int a, int bits) { return hn::ShiftLeftSame(a.v, bits); }
 HWY_INLINE Int operator>>(Int a, int bits) { return hn::ShiftRightSame(a.v, bits); }
+HWY_INLINE Int operator>>(Int a, Int bits) { return a.v >> bits.v; }
 HWY_INLINE Mask operator<(Int a, Int b) { return {hn::RebindMask(FloatTag(), hn::Lt(a.v, b.v))}; }
 HWY_INLINE Mask operator>=(Int a, Int b) { return !(a < b); }
 HWY_INLINE Mask operator==(Int a, Int b) { return {hn::RebindMask(FloatTag(), hn::Eq(a.v, b.v))}; }
@@ -82,13 +83,38 @@ HWY_INLINE Int to_int(Float x) {
 #endif
 }
 HWY_INLINE Float to_float(Int x) { return hn::ConvertTo(FloatTag(), x.v); }
+HWY_INLINE Float times_power_of_two(Float x, Float n) {
+#if HWY_TARGET == HWY_AVX3
+  return hn::Vec<FloatTag>{_mm512_scalef_ps(x.v.raw, n.v.raw)};
+#else
+  return x * Float(hn::BitCast(FloatTag(), hn::ShiftLeft<23>(hn::Add(to_int(n).v, hn::Set(IntTag(), 127)))));
+#endif
+}
 HWY_INLINE Int bits_of(Float x) { return hn::BitCast(IntTag(), x.v); }
 HWY_INLINE Float float_of_bits(Int x) { return hn::BitCast(FloatTag(), x.v); }
 
-HWY_INLINE Int iota(int first) { return hn::Iota(IntTag(), first); }
+// Highway's own Iota writes its lanes one by one and waits until they can be read as one.
+alignas(64) inline constexpr int32_t kFirst[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+HWY_INLINE Int iota(int first) { return hn::Add(hn::Set(IntTag(), first), hn::Load(IntTag(), kFirst)); }
 HWY_INLINE Float load(const float* p) { return hn::LoadU(FloatTag(), p); }
 HWY_INLINE void store(float* p, Float value) { hn::StoreU(value.v, FloatTag(), p); }
 HWY_INLINE Float gather(const float* base, Int index) { return hn::GatherIndex(FloatTag(), base, index.v); }
+HWY_INLINE Int look_up(const int32_t* table, Int index) {
+  if constexpr (kLanes < 8)
+    return hn::GatherIndex(IntTag(), table, index.v);
+  else
+    return hn::TableLookupLanes(hn::LoadU(IntTag(), table), hn::IndicesFromVec(IntTag(), index.v));
+}
+
+struct Pairs {
+  Float even, odd;
+};
+HWY_INLINE Pairs load_pairs(const float* p) {
+  Pairs out;
+  hn::LoadInterleaved2(FloatTag(), p, out.even.v, out.odd.v);
+  return out;
+}
+HWY_INLINE void store_pairs(float* p, Float even, Float odd) { hn::StoreInterleaved2(even.v, odd.v, FloatTag(), p); }
 
 }  // namespace aftershade::lanes::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -18,7 +18,7 @@ inline Float round_small(Float x) { return (x + 12582912.0F) - 12582912.0F; }
 /// x = n + f, f in [-0.5, 0.5]; 2^f by the Taylor series of exp(f ln 2) to the sixth power.
 inline Float exp2(Float x) {
   const Float clamped = clamp(x, -126.0F, 126.0F);
-  const Float n = round_small(clamped);
+  const Float n = kLanes > 1 ? round(clamped) : round_small(clamped);  // but for the sign of 0 the same
   const Float f = clamped - n;
   Float p = 1.5403530e-4F;    // (ln 2)^6 / 6!
   p = p * f + 1.3333558e-3F;  // (ln 2)^5 / 5!
@@ -27,8 +27,7 @@ inline Float exp2(Float x) {
   p = p * f + 2.4022651e-1F;  // (ln 2)^2 / 2!
   p = p * f + 6.9314718e-1F;  // ln 2
   p = p * f + 1.0F;
-  const Float scale = float_of_bits((to_int(n) + Int(127)) << 23);
-  return select(x < -126.0F, Float(0.0F), p * scale);
+  return select(x < -126.0F, Float(0.0F), times_power_of_two(p, n));
 }
 
 /// sin(2 pi t) and cos(2 pi t), t in turns, |t| < 2^22. Absolute error below 4e-7.

@@ -52,6 +52,7 @@ inline Int operator|(Int a, Int b) { return a.v | b.v; }
 inline Int operator^(Int a, Int b) { return a.v ^ b.v; }
 inline Int operator<<(Int a, int bits) { return static_cast<int32_t>(static_cast<uint32_t>(a.v) << bits); }
 inline Int operator>>(Int a, int bits) { return a.v >> bits; }  ///< arithmetic
+inline Int operator>>(Int a, Int bits) { return a.v >> bits.v; }
 inline Mask operator<(Int a, Int b) { return {a.v < b.v}; }
 inline Mask operator>=(Int a, Int b) { return {a.v >= b.v}; }
 inline Mask operator==(Int a, Int b) { return {a.v == b.v}; }
@@ -89,11 +90,26 @@ inline Float float_of_bits(Int x) {
   return out;
 }
 
+/// x 2^n, n a whole number in [-126, 127].
+inline Float times_power_of_two(Float x, Float n) { return x * float_of_bits((to_int(n) + Int(127)) << 23); }
+
 /// first, first + 1, ... one a lane.
 inline Int iota(int first) { return first; }
 inline Float load(const float* p) { return *p; }
 inline void store(float* p, Float value) { *p = value.v; }
 /// base[index], lane by lane; every index must be inside the array.
 inline Float gather(const float* base, Int index) { return base[index.v]; }
+/// table[index] of 16 values, of which only the first 8 may be asked for.
+inline Int look_up(const int32_t* table, Int index) { return table[index.v]; }
+
+/// p[0], p[2], ... and p[1], p[3], ...
+struct Pairs {
+  Float even, odd;
+};
+inline Pairs load_pairs(const float* p) { return {p[0], p[1]}; }
+inline void store_pairs(float* p, Float even, Float odd) {
+  p[0] = even.v;
+  p[1] = odd.v;
+}
 
 }  // namespace aftershade::lanes::N_SCALAR

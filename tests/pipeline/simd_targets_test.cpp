@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdio>
 
+#include "core/base/text.h"
 #include "core/parallel/rows.h"
 #include "core/simd/targets.h"
 #include "tests/pipeline/ao_quality.h"
@@ -45,8 +46,10 @@ class Targets : public testing::TestWithParam<std::string> {
 TEST_P(Targets, GiveTheBitsOfTheOneLaneTwin) {
   const MemorySink twin = run_on("scalar", GetParam());
   ASSERT_EQ(twin.planes.size(), 4U);
-  for (const std::string& target : lanes::targets())
-    if (target != "scalar") EXPECT_EQ(first_difference(twin, run_on(target, GetParam())), "") << target;
+  for (const std::string& target : lanes::targets()) {
+    if (target == "scalar") continue;
+    EXPECT_EQ(first_difference(twin, run_on(target, GetParam())), "") << target;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, Targets, testing::ValuesIn(preset::shipped_presets()), [](const auto& preset) {

@@ -86,6 +86,7 @@ inline void record_ints(const Recorder& record, Int a, Int b) {
   record("int a ^ b", a ^ b);
   record("int a << 7", a << 7);
   record("int a >> 7", a >> 7);
+  record("int a >> b", a >> (b & 31));
   record("int a < b", a < b);
   record("int a >= b", a >= b);
   record("int a == b", a == (b & a));
@@ -101,14 +102,17 @@ inline void record_functions(const Recorder& record, Float a, Float b) {
   record("log2", log2(abs(a)));
   record("round_small", round_small(clamp(a, -1e6F, 1e6F)));
   record("floor_log2", floor_log2(abs(a)));
+  record("times_power_of_two", times_power_of_two(a, round_small(clamp(b, -126.0F, 127.0F))));
   const SinCos angle = sincos_turns(clamp(b, -1e6F, 1e6F));
   record("sin", angle.sin);
   record("cos", angle.cos);
 }
 
 Results all_operations(const Operands& operands) {
-  Results results;
+  constexpr std::array<int32_t, 16> kTable{7, -1, 0, 1 << 30, 5, 42, -1000, 3};
   const size_t count = operands.a.size();
+  std::vector<float> pairs(2 * count);
+  Results results;
   for (size_t i = 0; i < count; i += kLanes) {
     const Recorder record{results, i, count};
     const Float a = load(operands.a.data() + i), b = load(operands.b.data() + i);
@@ -118,7 +122,13 @@ Results all_operations(const Operands& operands) {
     const Int index = iota(static_cast<int>(i));
     record("iota", index);
     record("gather", gather(operands.b.data(), Int(static_cast<int>(count) - 1) - index));
+    record("look_up", look_up(kTable.data(), bits_of(b) & 7));
+    store_pairs(pairs.data() + 2 * i, a, b);
+    const Pairs again = load_pairs(pairs.data() + 2 * i);
+    record("even", again.even);
+    record("odd", again.odd);
   }
+  results["pairs"] = pairs;
   return results;
 }
 
