@@ -153,7 +153,7 @@ params::Json Plan::json_of(Command command, const std::string& name) const {
 
 params::Json Plan::stages() const {
   return json_of({self_, "stages", frames_.folder, text_of(frames_.size), std::to_string(frames_.frames),
-                  std::to_string(options_.quick_repetitions)},
+                  std::to_string(2 * options_.repetitions + 1)},
                  "stages.json");
 }
 
