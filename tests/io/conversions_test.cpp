@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "core/base/error.h"
+#include "core/simd/targets.h"
 
 namespace aftershade::io {
 namespace {
@@ -130,6 +133,52 @@ TEST(ConvertNormals, EncodedInZeroToOne) {
   convert_normals(n, {.normal_space = NormalSpace::camera, .scale = {2, 2, -2}, .neutral = 0.5}, std::nullopt,
                   {0, 0, 0, 0});
   EXPECT_EQ(n[2](0, 0), -1);
+}
+
+/// The definition, pixel by pixel.
+Vec3 expected_normal(Vec3 stored, const Encoding& e, const Camera& camera, double x, double y) {
+  for (int c = 0; c < 3; ++c) stored[c] = (stored[c] - e.neutral) * e.scale[static_cast<size_t>(c)];
+  Vec3 n = transform_direction(stored, *camera.world_to_camera);
+  const double length = n.length();
+  n = length >= 0.1 && std::isfinite(length) ? n / length : Vec3(0);
+  const Vec3 ray = camera.orthographic ? Vec3(0, 0, 1) : camera.unproject(x + 0.5, y + 0.5, 1);
+  return n.dot(ray) > 0 ? -n : n;
+}
+
+TEST(ConvertNormals, IsItsDefinitionBitForBitOnEverySimdTarget) {
+  const Encoding encoding{.scale = {2, 1.5, -2}, .neutral = 0.25};
+  const Window window{-7, 11, 29, 15};
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> values(-1, 1);
+  std::vector<Plane> stored;
+  for (int c = 0; c < 3; ++c) stored.emplace_back(37, 5);
+  for (Plane& plane : stored)
+    for (int y = 0; y < 5; ++y)
+      for (int x = 0; x < 37; ++x)
+        plane(x, y) = random() % 40 == 0   ? kNan
+                      : random() % 40 == 0 ? kInf
+                      : random() % 9 == 0  ? 0.25F
+                                           : values(random);
+  for (const bool orthographic : {false, true})
+    for (const std::string& target : lanes::targets()) {
+      lanes::force_target(target);
+      Camera camera = camera_from_fov(75, 1, -7, 11, 37, 5);
+      camera.world_to_camera = Mat4(0.36, 0.48, -0.8, 0, -0.8, 0.6, 0, 0, 0.48, 0.64, 0.6, 0, 1, 2, 3, 1);
+      camera.orthographic = orthographic;
+      std::vector<Plane> n;
+      for (const Plane& plane : stored) n.push_back(copy_of(plane));
+      convert_normals(n, encoding, camera, window);
+      for (int y = 0; y < 5; ++y)
+        for (int x = 0; x < 37; ++x) {
+          const Vec3 expected = expected_normal({stored[0](x, y), stored[1](x, y), stored[2](x, y)}, encoding, camera,
+                                                window.min_x + x, window.min_y + y);
+          for (int c = 0; c < 3; ++c)
+            ASSERT_EQ(std::bit_cast<uint32_t>(n[static_cast<size_t>(c)](x, y)),
+                      std::bit_cast<uint32_t>(static_cast<float>(expected[c])))
+                << target << " " << x << " " << y;
+        }
+    }
+  lanes::force_target(lanes::targets().front());
 }
 
 TEST(ConvertVelocity, SignsUnitsAndUnknowns) {
