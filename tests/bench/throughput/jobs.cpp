@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <numeric>
 #include <stdexcept>
 
 #include "core/base/text.h"
@@ -46,6 +47,14 @@ double Record::peak_mb() const {
   return std::ranges::max(runs, {}, [](const Usage& usage) { return usage.peak_mb; }).peak_mb;
 }
 
+std::optional<double> Record::growth() const {
+  constexpr size_t kLeast = 30;
+  if (resident_mb.size() < kLeast) return std::nullopt;
+  const auto third = static_cast<std::ptrdiff_t>(resident_mb.size() / 3);
+  const double last = std::accumulate(resident_mb.end() - third, resident_mb.end(), 0.0);
+  return last / std::accumulate(resident_mb.end() - 2 * third, resident_mb.end() - third, 0.0);
+}
+
 Ratio ratio(const Record& a, const Record& b) {
   std::vector<double> wall, cpu;
   const double frames = static_cast<double>(b.frames) / a.frames;
@@ -56,13 +65,18 @@ Ratio ratio(const Record& a, const Record& b) {
   return {median(wall), median(cpu)};
 }
 
-void Jobs::run_once(const Job& job, const std::function<void()>& meanwhile) {
+Record& Jobs::prepare(const Job& job) {
   if (::isatty(STDERR_FILENO)) std::fprintf(stderr, "%s\n", job.name.c_str());
   if (!job.out.empty()) empty_folder(job.out);
   Record& record = records_[job.name];
   record.frames = job.frames;
-  record.runs.push_back(throughput::run(job.commands, log_, meanwhile));
-  if (job.out.empty() || meanwhile) return;
+  return record;
+}
+
+void Jobs::run_once(const Job& job) {
+  Record& record = prepare(job);
+  record.runs.push_back(throughput::run(job.commands, log_));
+  if (job.out.empty()) return;
   const std::vector<fs::path> files = finished_files(job.out);
   if (files.size() != static_cast<size_t>(job.frames))
     throw std::runtime_error(cat(job.name, ": ", files.size(), " files instead of ", job.frames));
@@ -74,7 +88,7 @@ void Jobs::run_once(const Job& job, const std::function<void()>& meanwhile) {
 void Jobs::run(const std::vector<Job>& jobs, int repetitions) {
   for (int i = 0; i < repetitions; ++i)
     for (const Job& job : jobs) {
-      run_once(job, nullptr);
+      run_once(job);
       if (job.check && i == 0) job.check();
       if (!job.out.empty()) fs::remove_all(job.out);
     }
@@ -85,7 +99,10 @@ void Jobs::run_and_drop_files(const Job& job) {
   const auto drop = [&] {
     for (const fs::path& file : finished_files(job.out)) dropped += fs::remove(file) ? 1 : 0;
   };
-  run_once(job, drop);
+  Record& record = prepare(job);
+  Watched watched = watch(job.commands.at(0), log_, drop);
+  record.runs.push_back(watched.usage);
+  record.resident_mb = std::move(watched.resident_mb);
   drop();
   fs::remove_all(job.out);
   if (dropped != job.frames) throw std::runtime_error(cat(job.name, ": ", dropped, " files instead of ", job.frames));

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,13 +24,16 @@ class Record {
  public:
   int frames = 1;
   std::vector<Usage> runs;
-  double packed_bytes = 0;  ///< of one written file, in the mean
+  double packed_bytes = 0;          ///< of one written file, in the mean
+  std::vector<double> resident_mb;  ///< ten times a second, of a job that was watched
 
   double wall_s() const;  ///< medians
   double cpu_s() const;
   double wall_ms_per_frame() const { return 1e3 * wall_s() / frames; }
   double cpu_ms_per_frame() const { return 1e3 * cpu_s() / frames; }
   double peak_mb() const;  ///< of all runs
+  /// Resident memory in the last third of a watched run over that in the middle third; nothing if it was too short.
+  std::optional<double> growth() const;
 };
 
 /// A ratio of two jobs that took turns, time per frame: the median over the turns.
@@ -45,7 +49,7 @@ class Jobs {
 
   /// Every job in turn, `repetitions` times. Throws when one fails or writes another number of files.
   void run(const std::vector<Job>& jobs, int repetitions);
-  /// Once; files that are done are removed while it runs, so that it needs little room.
+  /// Once, watched, a job of one command; files that are done are removed while it runs, so that it needs little room.
   void run_and_drop_files(const Job& job);
 
   bool has(const std::string& name) const { return records_.contains(name); }
@@ -53,7 +57,8 @@ class Jobs {
   const std::map<std::string, Record>& all() const { return records_; }
 
  private:
-  void run_once(const Job& job, const std::function<void()>& meanwhile);
+  void run_once(const Job& job);
+  Record& prepare(const Job& job);
 
   std::filesystem::path log_;
   std::map<std::string, Record> records_;

@@ -86,6 +86,7 @@ params::Json report(const Jobs& jobs) {
     json = {{"frames", record.frames}, {"packed_bytes", record.packed_bytes}, {"runs", params::Json::array()}};
     for (const Usage& run : record.runs)
       json["runs"].push_back({{"wall_s", run.wall_s}, {"cpu_s", run.cpu_s}, {"peak_mb", run.peak_mb}});
+    if (!record.resident_mb.empty()) json["resident_mb"] = record.resident_mb;
   }
   return out;
 }

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 
 #include "core/base/text.h"
@@ -62,40 +63,65 @@ double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-/// Waits for one and adds what it took; its status as wait gives it.
-int wait_for(pid_t process, Usage& usage, const std::function<void()>& meanwhile) {
+/// Adds what the process took once it has ended; its status as wait gives it. With WNOHANG nothing while it runs.
+std::optional<int> wait_for(pid_t process, Usage& usage, int options) {
   int status = 0;
   struct rusage taken {};
-  while (true) {
-    const pid_t ended = ::wait4(process, &status, meanwhile ? WNOHANG : 0, &taken);
-    if (ended == process) break;
-    if (ended < 0 && errno != EINTR) throw std::runtime_error(cat("wait4: ", std::strerror(errno)));
-    if (!meanwhile) continue;
-    meanwhile();
-    ::usleep(100000);
-  }
+  pid_t ended = 0;
+  do ended = ::wait4(process, &status, options, &taken);
+  while (ended < 0 && errno == EINTR);
+  if (ended < 0) throw std::runtime_error(cat("wait4: ", std::strerror(errno)));
+  if (ended == 0) return std::nullopt;
   usage.cpu_s += seconds(taken.ru_utime) + seconds(taken.ru_stime);
-  usage.peak_mb = std::max(usage.peak_mb, static_cast<double>(taken.ru_maxrss) / 1024);
+  usage.peak_mb = std::max(usage.peak_mb, static_cast<double>(taken.ru_maxrss) * 1024 / 1e6);
   return status;
+}
+
+void check_status(const Command& command, int status, const fs::path& log) {
+  if (WIFSIGNALED(status)) fail(command, cat("ended by signal ", WTERMSIG(status)), log);
+  if (WEXITSTATUS(status) != 0) fail(command, cat("exit status ", WEXITSTATUS(status)), log);
+}
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+/// 0 when the process is gone.
+double resident_mb(pid_t process) {
+  std::ifstream file(cat("/proc/", int64_t{process}, "/statm"));
+  double all = 0, resident = 0;  // pages
+  file >> all >> resident;
+  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
 }  // namespace
 
-Usage run(const std::vector<Command>& commands, const fs::path& log, const std::function<void()>& meanwhile) {
-  using Clock = std::chrono::steady_clock;
+Usage run(const std::vector<Command>& commands, const fs::path& log) {
   fs::remove(log);
   const Clock::time_point begin = Clock::now();
   std::vector<pid_t> processes;
   for (const Command& command : commands) processes.push_back(start(command, log));
   Usage usage;
   std::vector<int> statuses;
-  for (const pid_t process : processes) statuses.push_back(wait_for(process, usage, meanwhile));
-  usage.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
-  for (size_t i = 0; i < commands.size(); ++i) {
-    if (WIFSIGNALED(statuses[i])) fail(commands[i], cat("ended by signal ", WTERMSIG(statuses[i])), log);
-    if (WEXITSTATUS(statuses[i]) != 0) fail(commands[i], cat("exit status ", WEXITSTATUS(statuses[i])), log);
-  }
+  for (const pid_t process : processes) statuses.push_back(wait_for(process, usage, 0).value());
+  usage.wall_s = seconds_since(begin);
+  for (size_t i = 0; i < commands.size(); ++i) check_status(commands[i], statuses[i], log);
   return usage;
+}
+
+Watched watch(const Command& command, const fs::path& log, const std::function<void()>& meanwhile) {
+  fs::remove(log);
+  const Clock::time_point begin = Clock::now();
+  const pid_t process = start(command, log);
+  Watched watched;
+  std::optional<int> status;
+  while (!(status = wait_for(process, watched.usage, WNOHANG))) {
+    if (const double mb = resident_mb(process); mb > 0) watched.resident_mb.push_back(mb);
+    meanwhile();
+    ::usleep(100000);
+  }
+  watched.usage.wall_s = seconds_since(begin);
+  check_status(command, *status, log);
+  return watched;
 }
 
 bool found_in_path(const std::string& program) {

@@ -15,10 +15,15 @@ struct Usage {
 };
 
 /// Runs the commands side by side; what they print goes to `log`. Throws std::runtime_error with its end when one
-/// fails. An interrupt (Ctrl-C) ends them even where this program ignores it. `meanwhile` is called ten times a second,
-/// if there is any.
-Usage run(const std::vector<Command>& commands, const std::filesystem::path& log,
-          const std::function<void()>& meanwhile = nullptr);
+/// fails. An interrupt (Ctrl-C) ends them even where this program ignores it.
+Usage run(const std::vector<Command>& commands, const std::filesystem::path& log);
+
+/// One command; ten times a second `meanwhile` is called and its resident memory noted, in MB.
+struct Watched {
+  Usage usage;
+  std::vector<double> resident_mb;
+};
+Watched watch(const Command& command, const std::filesystem::path& log, const std::function<void()>& meanwhile);
 
 /// Is there such a program?
 bool found_in_path(const std::string& program);
