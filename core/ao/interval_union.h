@@ -37,6 +37,8 @@ class Intervals {
   /// that touch `added` itself are joined, since they are apart from each other.
   void unite(const Interval& added) {
     using namespace lanes::HWY_NAMESPACE;
+    Mask homeless = added.from <= 1.0F;
+    if (!any(homeless)) return;
     Interval joined = added;
     for (int i = 0; i < size_; ++i) {
       const Interval old = (*this)[i];
@@ -44,7 +46,6 @@ class Intervals {
       joined.from = select(touch, min(joined.from, old.from), joined.from);
       joined.to = select(touch, max(joined.to, old.to), joined.to);
     }
-    Mask homeless = added.from <= 1.0F;
     for (int i = 0; i < size_; ++i) {
       const Interval old = (*this)[i];
       const Mask vacant = touches(old, added) | (old.from > 1.0F), moves_in = homeless & vacant;

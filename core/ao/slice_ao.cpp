@@ -12,20 +12,14 @@
 HWY_BEFORE_NAMESPACE();
 namespace aftershade::ao::HWY_NAMESPACE {
 
-/// Level m of the pyramid; its odd rows and columns are shifted by the bits 1010... and 101... of m digits.
-DepthLevel depth_level(const filter::DepthPyramid& pyramid, int m) {
-  return {Samples(pyramid.level(m)), m, pyramid.origin_x() >> m, pyramid.origin_y() >> m, (2 << m) / 3, (1 << m) / 3};
-}
-
 Plane slices_of_plane(const SliceAoParams& params, const filter::Surface& surface, const filter::SampleGrid& grid,
                       const filter::DepthPyramid& pyramid, const SliceTurns& turns, ConstPlaneView thickness,
                       ConstPlaneView depth2, ConstPlaneView thickness2) {
-  std::vector<DepthLevel> depth;
-  for (int m = 0; m < pyramid.levels(); ++m) depth.push_back(depth_level(pyramid, m));
+  const DepthLevels depth = depth_levels(pyramid, params.depth_mips);
   const auto border = params.border == Border::extend ? border_planes(surface) : std::vector<BorderPlane>();
   Plane out = Plane::for_overwrite(grid.width(), grid.height());
   for_rows(out.height(), [&](int y) {
-    Intervals list;
+    std::array<Intervals, 2> lists;
     slice_ao_row({.grid = GridSamples(grid),
                   .nx = Samples(surface.nx),
                   .ny = Samples(surface.ny),
@@ -34,8 +28,6 @@ Plane slices_of_plane(const SliceAoParams& params, const filter::Surface& surfac
                   .fx = surface.projection.fx,
                   .fy = surface.projection.fy,
                   .depth = depth,
-                  .origin_x = surface.origin_x,
-                  .origin_y = surface.origin_y,
                   .thickness = Samples(thickness),
                   .border = border,
                   .depth2 = Samples(depth2),
@@ -44,7 +36,7 @@ Plane slices_of_plane(const SliceAoParams& params, const filter::Surface& surfac
                   .turns = turns,
                   .texel_x = (surface.origin_x + grid.origin_x) / grid.step,
                   .texel_y = (surface.origin_y + grid.origin_y) / grid.step,
-                  .list = list,
+                  .lists = lists,
                   .out = out.row(y)},
                  y);
   });
@@ -96,7 +88,8 @@ Plane slice_ao(const SliceAoParams& params, const filter::Surface& surface, cons
   // Successive multiples of the golden ratio turn the whole pattern from frame to frame.
   const SliceTurns turns(params.noise_tile, params.slices,
                          params.per_frame_noise ? frame_number * 0.6180339887498949 : 0);
-  const filter::DepthPyramid pyramid(surface.depth, params.depth_mips ? 6 : 1, surface.origin_x, surface.origin_y);
+  const filter::DepthPyramid pyramid(surface.depth, params.depth_mips ? HWY_NAMESPACE::kDepthLevelsMost : 1,
+                                     surface.origin_x, surface.origin_y);
   Plane out =
       HWY_DYNAMIC_DISPATCH(slices_of_plane)(params, surface, grid, pyramid, turns, thickness, depth2, thickness2);
   if (!(params.pixel_filter_px > 0)) return out;

@@ -9,19 +9,17 @@
 #include <span>
 
 #include "core/ao/border_planes.h"
+#include "core/ao/depth_levels.h"
 #include "core/ao/interval_union.h"
 #include "core/ao/slice_ao.h"
 #include "core/ao/slice_turns.h"
 #include "core/filter/lane_geometry.h"
-#include "core/filter/pyramid.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace aftershade::ao::HWY_NAMESPACE {
 
 using namespace lanes::HWY_NAMESPACE;
 using namespace filter::HWY_NAMESPACE;
-
-inline constexpr int kLogMaxOffset = 3;  ///< SAO's LOG_MAX_OFFSET: samples nearer than 16 px read level 0
 
 inline Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 inline Point operator*(Point a, Float s) { return {a.x * s, a.y * s, a.z * s}; }
@@ -60,13 +58,6 @@ struct Arc {
   }
 };
 
-/// What is reduced to a level of filter::DepthPyramid, and where its values come from.
-struct DepthLevel {
-  Samples depth;
-  int level, first_x, first_y;  ///< absolute texel coordinates of (0, 0)
-  int odd_row, odd_column;      ///< z_{m+1}(x, y) = z_m(2x + (y & 1), 2y + (x & 1)) from this level down to 0
-};
-
 /// Index into border_planes of a pixel on the border.
 HWY_INLINE Int border_place(int width, int height, Int x, Int y) {
   const Int column = select(x == Int(0), y + 2 * width, y + (2 * width + height));
@@ -78,15 +69,14 @@ struct SliceAoRow {
   Samples nx, ny, nz;
   Lens lens;
   float fx, fy;
-  std::span<const DepthLevel> depth;    ///< the first is the image
-  int origin_x, origin_y;               ///< absolute coordinates of the image's (0, 0)
+  const DepthLevels& depth;
   Samples thickness;                    ///< of planar depth; not read where it is constant
   std::span<const BorderPlane> border;  ///< empty where it is open
   Samples depth2, thickness2;           ///< the second layer; its depth has width 0 where there is none
   const SliceAoParams& params;
   const SliceTurns& turns;
-  int texel_x, texel_y;  ///< absolute texel coordinates of the grid's (0, 0)
-  Intervals& list;       ///< scratch
+  int texel_x, texel_y;             ///< absolute texel coordinates of the grid's (0, 0)
+  std::array<Intervals, 2>& lists;  ///< scratch
   float* out;
 };
 
@@ -110,9 +100,7 @@ inline Receiver receiver(const SliceAoRow& row, int x0, int y, Float depth) {
   const Int column = row.grid.depth.clamp_x(iota(x0)), iy = y;
   const Float x = every ? to_float(iota(x0)) : row.grid.pixel_x(column, iy),
               fy = every ? to_float(iy) : row.grid.pixel_y(column, iy);
-  const auto normal = [&](const Samples& s) {
-    return every ? load(s.data + static_cast<std::ptrdiff_t>(y) * s.stride + x0) : s(to_int(x), to_int(fy));
-  };
+  const auto normal = [&](const Samples& s) { return every ? load(s.row(y) + x0) : s(to_int(x), to_int(fy)); };
   const Point point = unproject(row.lens, x, fy, depth);
   const Point along = row.lens.orthographic ? Point{0.0F, 0.0F, 1.0F} : unit(unproject(row.lens, x, fy, 1.0F));
   return {x, fy, point, -along, usable_normal({normal(row.nx), normal(row.ny), normal(row.nz)}, along)};
@@ -137,11 +125,10 @@ struct Side {
   Float horizon;  ///< t of gamma + pi/2
 };
 
-/// What a sample shows in one layer, where `there`: a surface `depth` metres behind the receiver in planar depth, solid
-/// for `length` of planar depth.
+/// What a sample shows in one layer, (x, y) pixels from the receiver: a surface, solid for `length` of planar depth;
+/// nothing where z is 0.
 struct Solid {
-  Mask there;
-  Float x, y, z, length;  ///< pixels from the receiver; planar depth
+  Float x, y, z, length;
 };
 
 /// What the solid hides of the arc: from its front to its back, inside the sphere, where `hides`. Nothing is hidden by
@@ -172,7 +159,7 @@ HWY_INLINE Hidden hidden_by(const SliceAoRow& row, const Side& side, Float recei
   const Float first = max((-half - root) * inv_rr, 0.0F), last = min((root - half) * inv_rr, length);
   const Float a0 = a + first * ra, a1 = a + last * ra;
   const Mask above = max(height, height + length * rise) > 0.0F;
-  const Mask hides = solid.there & above & (discriminant > 0.0F) & (first < last) & (min(a0, a1) > 0.0F);
+  const Mask hides = (solid.z > 0.0F) & above & (discriminant > 0.0F) & (first < last) & (min(a0, a1) > 0.0F);
   return {hides, a0, b + first * rb, a1, b + last * rb};
 }
 
@@ -222,26 +209,22 @@ struct Sample {
   Mask inside;
 };
 
-/// What level `m` of the pyramid shows over pixel (x, y), put where it was taken.
-HWY_INLINE Sample sample(const SliceAoRow& row, const DepthLevel& level, Float x, Float y) {
-  const Samples& image = row.depth[0].depth;
+/// What pixel (x, y), r pixels from the receiver, shows. mip = clamp(floor(log2(r)) - 3, 0, 5): algorithms 4.2.
+HWY_INLINE Sample sample(const SliceAoRow& row, Float x, Float y, Float r) {
+  const Samples& image = row.depth.image;
   const Float cx = clamp(x, 0.0F, static_cast<float>(image.width - 1)),
               cy = clamp(y, 0.0F, static_cast<float>(image.height - 1));
   const Int ix = to_int(cx), iy = to_int(cy);
   const Mask inside = (cx == x) & (cy == y);
-  if (level.level == 0) return {x, y, image(ix, iy), ix, iy, inside};
-  const Int tx = (ix + row.origin_x) >> level.level, ty = (iy + row.origin_y) >> level.level;
-  const Float z = level.depth(tx - level.first_x, ty - level.first_y);
-  const Int column = tx & 1, line = ty & 1;
-  const Int px = (tx << level.level) + line * level.odd_row + column * level.odd_column - row.origin_x,
-            py = (ty << level.level) + column * level.odd_row + line * level.odd_column - row.origin_y;
-  const Int kx = image.clamp_x(px), ky = image.clamp_y(py);
-  return {to_float(kx), to_float(ky), z, kx, ky, inside};
+  if (row.depth.count == 1) return {x, y, image(ix, iy), ix, iy, inside};
+  const Int level = clamp(floor_log2(r) - Int(kLogMaxOffset), 0, row.depth.count - 1);
+  const DepthSample s = depth_sample(row.depth, ix, iy, level);
+  return {to_float(s.x), to_float(s.y), s.z, s.x, s.y, inside};
 }
 
 /// Outside the image, the surface of the border goes on as a plane (ours).
 inline Sample beyond_border(const SliceAoRow& row, const Sample& s, Float x, Float y) {
-  const Samples& image = row.depth[0].depth;
+  const Samples& image = row.depth.image;
   const Int ix = image.clamp_x(to_int(x)), iy = image.clamp_y(to_int(y));
   const float* plane = row.border.front().data();
   const Int place = border_place(image.width, image.height, ix, iy) * 3;
@@ -252,67 +235,83 @@ inline Sample beyond_border(const SliceAoRow& row, const Sample& s, Float x, Flo
           select(s.inside, s.ix, ix), select(s.inside, s.iy, iy), s.inside};
 }
 
-/// Adds what the sample hides in every layer.
-HWY_INLINE void hide(const SliceAoRow& row, const Receiver& at, const Side& side, Mask wanted, Sample s,
-                     Intervals& list) {
-  const bool constant = row.params.thickness == ThicknessModel::constant;
-  const bool two = row.depth2.width > 0;
-  Float length = constant ? Float(HUGE_VALF) : row.thickness(s.ix, s.iy);
-  Solid solid{wanted & is_surface(s.z), s.x - at.x, s.y - at.y, s.z, length};
-  Mask covers = solid.there & s.inside;
-  Float z2 = 0.0F;
-  if (two) {
-    z2 = row.depth2(s.ix, s.iy);
-    covers = covers & is_surface(z2) & (z2 > s.z);
-    solid.length = select(covers, min(length, z2 - s.z), length);
-  }
-  for (int layer = 0;; ++layer) {
-    const Hidden hidden = hidden_by(row, side, at.point.z, solid);
-    if (any(hidden.hides)) list.unite(elevations(hidden, side.horizon));
-    if (layer == 1 || !two || !any(covers)) return;
-    solid.there = covers;
-    solid.z = z2;
-    solid.length = constant ? Float(HUGE_VALF) : row.thickness2(s.ix, s.iy);
-  }
-}
-
-/// The levels of the pyramid that the samples of a block of pixels read, by their number; the last for all beyond.
-struct Levels {
-  static constexpr int kMost = 8;
-  std::array<const DepthLevel*, kMost> of_step;
-  const DepthLevel& operator()(int step) const { return *of_step[static_cast<size_t>(std::min(step, kMost) - 1)]; }
+/// Both sides of a slice, and what was found on them so far.
+struct Slice {
+  std::array<Side, 2> sides;
+  std::array<Way, 2> ways;
+  std::array<Intervals, 2>& lists;
 };
 
 /// Samples from the receiver outwards, i + (r - steps) ((i - offset) / steps)^2 pixels away: every pixel near, wider
 /// apart far away (XeGTAO distributes by the square too, algorithms 9.2).
-HWY_INLINE void search(const SliceAoRow& row, const Levels& levels, const Receiver& at, const Side& side,
-                       const Way& way, Float offset, Intervals& list) {
-  const Samples& image = row.depth[0].depth;
-  const auto longest = static_cast<float>(std::max(image.width, image.height));
-  const Float last = floor(min(way.longest_px, longest) + 0.5F);
-  const Float count = row.params.steps > 0 ? min(last, static_cast<float>(row.params.steps)) : last;
-  const Float growth = (last - count) / (count * count);
-  list.clear();
-  for (int i = 1;; ++i) {
-    const auto step = static_cast<float>(i);
-    Mask wanted = step <= count;
-    if (!any(wanted)) break;
-    const Float k = step - offset, r = step + floor(growth * k * k);
-    const Float x = at.x + round(way.dx * r), y = at.y + round(way.dy * r);
-    Sample s = sample(row, levels(i), x, y);
-    if (!all(s.inside | !wanted)) {
-      if (row.border.empty())
-        wanted = wanted & s.inside;
-      else
-        s = beyond_border(row, s, x, y);
+struct Spacing {
+  Float count, growth;
+  Spacing(const SliceAoRow& row, const Way& way) {
+    const auto longest = static_cast<float>(std::max(row.depth.image.width, row.depth.image.height));
+    const Float last = floor(min(way.longest_px, longest) + 0.5F);
+    count = row.params.steps > 0 ? min(last, static_cast<float>(row.params.steps)) : last;
+    growth = (last - count) / (count * count);
+  }
+  Float at(float step, Float offset) const {
+    const Float k = step - offset;
+    return step + floor(growth * k * k);
+  }
+};
+
+/// What the layers show at the sample of a step: `found` has room for both.
+HWY_INLINE void look(const SliceAoRow& row, const Receiver& at, const Way& way, const Spacing& spacing, float step,
+                     Float offset, Solid* found) {
+  const Float r = spacing.at(step, offset), x = at.x + round(way.dx * r), y = at.y + round(way.dy * r);
+  Mask wanted = step <= spacing.count;
+  Sample s = sample(row, x, y, r);
+  if (!all(s.inside | !wanted)) {
+    if (row.border.empty())
+      wanted = wanted & s.inside;
+    else
+      s = beyond_border(row, s, x, y);
+  }
+  const bool constant = row.params.thickness == ThicknessModel::constant;
+  Float length = constant ? Float(HUGE_VALF) : row.thickness(s.ix, s.iy);
+  const Mask there = wanted & is_surface(s.z);
+  if (row.depth2.width > 0) {
+    const Float z2 = row.depth2(s.ix, s.iy);
+    const Mask covers = there & s.inside & is_surface(z2) & (z2 > s.z);
+    found[1] = {s.x - at.x, s.y - at.y, select(covers, z2, 0.0F), constant ? length : row.thickness2(s.ix, s.iy)};
+    length = select(covers, min(length, z2 - s.z), length);
+  }
+  found[0] = {s.x - at.x, s.y - at.y, select(there, s.z, 0.0F), length};
+}
+
+/// Samples are looked up, then measured, then united: within one such loop no turn waits for another.
+HWY_INLINE void search(const SliceAoRow& row, const Receiver& at, Float offset, Slice& slice) {
+  constexpr int kBatch = 4;  // steps
+  const std::array<Spacing, 2> spacing{Spacing(row, slice.ways[0]), Spacing(row, slice.ways[1])};
+  const int layers = row.depth2.width > 0 ? 2 : 1;
+  Solid found[kBatch * 2][2];
+  Interval hidden[kBatch * 2][2];
+  for (Intervals& list : slice.lists) list.clear();
+  for (int first = 1;; first += kBatch) {
+    int turns = 0;
+    for (; turns < 2 * kBatch; ++turns) {
+      const auto side = static_cast<size_t>(turns & 1);
+      const auto step = static_cast<float>(first + turns / 2);
+      if (side == 0 && !any(step <= max(spacing[0].count, spacing[1].count))) break;
+      look(row, at, slice.ways[side], spacing[side], step, offset, found[turns]);
     }
-    hide(row, at, side, wanted, s, list);
+    for (int layer = 0; layer < layers; ++layer)
+      for (int i = 0; i < turns; ++i) {
+        const Side& side = slice.sides[static_cast<size_t>(i & 1)];
+        hidden[i][layer] = elevations(hidden_by(row, side, at.point.z, found[i][layer]), side.horizon);
+      }
+    for (int i = 0; i < turns; ++i)
+      for (int layer = 0; layer < layers; ++layer) slice.lists[static_cast<size_t>(i & 1)].unite(hidden[i][layer]);
+    if (turns < 2 * kBatch) break;
   }
 }
 
 /// 1 - sum |N'| hidden / sum |N'| whole over the slices (algorithms 9.1 and 9.3; GTAO has the mean of |N'| whole, which
 /// is 1 only for many slices).
-inline Float visibility(const SliceAoRow& row, const Levels& levels, const Receiver& at, int turn_x, int turn_y) {
+inline Float visibility(const SliceAoRow& row, const Receiver& at, int turn_x, int turn_y) {
   const Point reference = select(abs(at.view.x) < 0.7F, Point{1.0F, 0.0F, 0.0F}, Point{0.0F, 1.0F, 0.0F});
   const Point s = unit(cross(at.view, reference)), t = cross(at.view, s);
   const Reach sphere = reach(row, at);
@@ -330,10 +329,11 @@ inline Float visibility(const SliceAoRow& row, const Levels& levels, const Recei
     const Axis a(row.lens, across + beside * (slide * nd), 0.0F),
         b(row.lens, at.view + beside * (slide * nv), from_camera);
     const Float horizon = nd / length;
-    for (const float sign : {1.0F, -1.0F}) {
-      search(row, levels, at, {a, b, normal, sign, horizon * sign}, way(row, sphere, across * sign), offset, row.list);
-      hidden += select(stands, Arc{nv, nd * sign}.hidden(row.list), 0.0F);
-    }
+    Slice slice{{Side{a, b, normal, 1.0F, horizon}, Side{a, b, normal, -1.0F, -horizon}},
+                {way(row, sphere, across), way(row, sphere, -across)},
+                row.lists};
+    search(row, at, offset, slice);
+    hidden += select(stands, Arc{nv, nd}.hidden(row.lists[0]) + Arc{nv, -nd}.hidden(row.lists[1]), 0.0F);
     // Both sides up to gamma +- pi/2, where sin^2(theta) = cos^2(gamma).
     const Float open = nv * (1.0F - horizon * horizon) + nd * (segment_area(-horizon) - 1.57079633F);
     whole += select(stands, open, 0.0F);
@@ -341,45 +341,17 @@ inline Float visibility(const SliceAoRow& row, const Levels& levels, const Recei
   return select(whole > 0.0F, clamp(1.0F - hidden / whole, 0.0F, 1.0F), 1.0F);
 }
 
-/// Samples that no lane of texels [from, to) has nearer than 2^(m + kLogMaxOffset) pixels read level m (algorithms 4.2,
-/// here for blocks of pixels at once).
-inline Levels levels_of(const SliceAoRow& row, const float* depth, int from, int to) {
-  Levels levels{};
-  levels.of_step.fill(&row.depth[0]);
-  if (row.depth.size() == 1) return levels;
-  float farthest = 0;
-  for (int x = from; x < to; ++x)
-    if (depth[x] <= 3.402823466e38F) farthest = std::max(farthest, depth[x]);
-  const float r = row.params.radius_m * std::max(row.fx, row.fy) / (row.lens.orthographic ? 1.0F : farthest);
-  const auto steps = static_cast<float>(row.params.steps);
-  for (size_t i = 1; i < levels.of_step.size(); ++i) {  // least with offset 1
-    const float nearest = steps > 0 ? (r - steps) / (steps * steps) * static_cast<float>(i * i) : 0;
-    size_t level = 0;
-    while (level + 1 < row.depth.size() && nearest >= static_cast<float>(2 << level << kLogMaxOffset)) ++level;
-    levels.of_step[i] = &row.depth[level];
-  }
-  return levels;
-}
-
-/// Blocks of 16 texels by absolute coordinates read the same levels; what a vector stores beyond its block is stored
-/// again.
 inline void slice_ao_row(const SliceAoRow& row, int y) {
-  constexpr int kBlock = 16;
   const int turn_y = row.turns.cell(y + row.texel_y), width = row.grid.depth.width;
-  const float* depths = row.grid.depth.data + static_cast<std::ptrdiff_t>(y) * row.grid.depth.stride;
-  for (int from = 0, to; from < width; from = to) {
-    to = std::min(from + kBlock - ((from + row.texel_x) & (kBlock - 1)), width);
-    const Levels levels = levels_of(row, depths, from, to);
-    for (int x0 = from; x0 < to; x0 += kLanes) {
-      const Float depth = load(depths + x0);
-      const Mask here = is_surface(depth) & (iota(x0) < Int(to));
-      Float out = 1.0F;
-      if (any(here)) {
-        const Receiver at = receiver(row, x0, y, select(here, depth, 1.0F));
-        out = select(here, visibility(row, levels, at, row.turns.cell(x0 + row.texel_x), turn_y), 1.0F);
-      }
-      store(row.out + x0, out);
+  for (int x0 = 0; x0 < width; x0 += kLanes) {
+    const Float depth = load(row.grid.depth.row(y) + x0);
+    const Mask here = is_surface(depth) & (iota(x0) < Int(width));
+    Float out = 1.0F;
+    if (any(here)) {
+      const Receiver at = receiver(row, x0, y, select(here, depth, 1.0F));
+      out = select(here, visibility(row, at, row.turns.cell(x0 + row.texel_x), turn_y), 1.0F);
     }
+    store(row.out + x0, out);
   }
 }
 
