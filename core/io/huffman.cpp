@@ -11,17 +11,24 @@ using Symbols = std::array<uint32_t, kMostSymbols>;
 
 /// The symbols that occur, rarest first, each as count * 512 + symbol.
 size_t sorted(std::span<const uint32_t> counts, Symbols& out) {
+  Symbols present;
+  size_t used = 0;
+  for (uint32_t symbol = 0; symbol < counts.size(); ++symbol) {
+    present[used] = counts[symbol] << 9 | symbol;
+    used += counts[symbol] > 0 ? 1 : 0;
+  }
   constexpr uint32_t kCommon = 255;  // rarer ones are sorted by counting
   std::array<uint16_t, kCommon + 1> ends{};
-  for (const uint32_t count : counts) ++ends[std::min(count, kCommon)];
+  for (size_t i = 0; i < used; ++i) ++ends[std::min(present[i] >> 9, kCommon)];
   uint16_t sum = 0;
-  ends[0] = 0;
-  for (uint16_t& end : ends) sum = static_cast<uint16_t>(sum + end), end = static_cast<uint16_t>(sum - end);
+  for (uint16_t& end : ends) {
+    sum = static_cast<uint16_t>(sum + end);
+    end = static_cast<uint16_t>(sum - end);
+  }
   const size_t common = ends[kCommon];
-  for (uint32_t symbol = 0; symbol < counts.size(); ++symbol)
-    if (counts[symbol] > 0) out[ends[std::min(counts[symbol], kCommon)]++] = counts[symbol] << 9 | symbol;
-  std::sort(out.begin() + common, out.begin() + sum);
-  return sum;
+  for (size_t i = 0; i < used; ++i) out[ends[std::min(present[i] >> 9, kCommon)]++] = present[i];
+  std::sort(out.begin() + common, out.begin() + used);
+  return used;
 }
 
 /// Depths of the leaves of a Huffman tree, in place: in, weights in ascending order; out, depths in descending order.
@@ -71,11 +78,16 @@ void code_lengths(std::span<const uint32_t> counts, int limit, std::span<uint8_t
 
 void canonical_codes(std::span<const uint8_t> lengths, std::span<uint16_t> codes) {
   std::array<uint16_t, 16> next{}, of_length{};
-  for (const uint8_t length : lengths) ++of_length[length];
-  of_length[0] = 0;
+  std::array<uint16_t, kMostSymbols> present;
+  size_t used = 0;
+  for (size_t i = 0; i < lengths.size(); ++i) {
+    present[used] = static_cast<uint16_t>(i);
+    used += lengths[i] > 0 ? 1 : 0;
+  }
+  for (size_t i = 0; i < used; ++i) ++of_length[lengths[present[i]]];
   for (size_t bits = 1; bits < next.size(); ++bits)
     next[bits] = static_cast<uint16_t>((next[bits - 1] + of_length[bits - 1]) << 1);
-  for (size_t i = 0; i < lengths.size(); ++i) {
+  for (const uint16_t i : std::span(present.data(), used)) {
     uint32_t code = next[lengths[i]]++;
     code = (code & 0x5555) << 1 | (code >> 1 & 0x5555);
     code = (code & 0x3333) << 2 | (code >> 2 & 0x3333);
