@@ -23,8 +23,11 @@ struct InputArgs {
   std::string nan = "keep";
 };
 
+inline constexpr const char* kDefaultPreset = "high-dx11";
+inline constexpr const char* kDefaultPreroll = "40";
+
 struct PresetArgs {
-  std::string preset = "high-dx11";
+  std::string preset;  ///< "": kDefaultPreset
   std::vector<std::string> sets, only, skip;
 };
 
@@ -37,8 +40,8 @@ struct RenderArgs : InputArgs, PresetArgs, CommonArgs {
   std::string output;
   bool ao = false, ao_only = false, diagnostics = false;
   std::string data_window = "keep", compression, existing = "overwrite", progress = "auto";
-  bool keep_going = false, dry_run = false, print_config = false;
-  std::string preroll = "40";
+  bool keep_going = false, dry_run = false, print_config = false, recode = false;
+  std::string preroll = kDefaultPreroll, memory, fsync = "on";
 };
 
 struct InspectArgs : InputArgs, PresetArgs, CommonArgs {

@@ -115,7 +115,7 @@ pipeline::Offer offer_of(const Input& input, const std::string& view) {
 }
 
 preset::Resolved resolve_preset(const PresetArgs& args) {
-  preset::Resolved resolved = preset::load_preset(args.preset, args.sets);
+  preset::Resolved resolved = preset::load_preset(args.preset.empty() ? kDefaultPreset : args.preset, args.sets);
   std::vector<std::string> ids;
   for (const auto& stage : resolved.preset.stages) ids.push_back(stage.id);
   for (const auto* list : {&args.only, &args.skip})

@@ -7,9 +7,12 @@
 #include <map>
 
 #include "app/log.h"
+#include "app/memory.h"
 #include "core/base/error.h"
+#include "core/base/memory_limit.h"
 #include "core/base/text.h"
 #include "core/io/publish.h"
+#include "core/parallel/rows.h"
 #include "core/pipeline/named_channels.h"
 
 namespace aftershade::app {
@@ -97,6 +100,39 @@ int preroll_of(const std::string& text) {
   throw Error(ErrorCode::usage, cat("--preroll ", text, " is not a number of frames"), "a number, or all");
 }
 
+/// Options that say what effects do, beside --recode, which has none.
+void check_recode(const RenderArgs& args) {
+  const std::pair<const char*, bool> given[] = {{"--preset", !args.preset.empty()},
+                                                {"--set", !args.sets.empty()},
+                                                {"--only", !args.only.empty()},
+                                                {"--skip", !args.skip.empty()},
+                                                {"--ao", args.ao},
+                                                {"--ao-only", args.ao_only},
+                                                {"--diagnostics", args.diagnostics},
+                                                {"--data-window", args.data_window != "keep"},
+                                                {"--preroll", args.preroll != kDefaultPreroll},
+                                                {"--print-config", args.print_config},
+                                                {"--ao-layers", !args.ao_layers.empty()},
+                                                {"--blur-layers", !args.blur_layers.empty()}};
+  for (const auto& [name, is_given] : given)
+    if (is_given)
+      throw Error(ErrorCode::usage, cat("--recode runs no effect, and ", name, " would do nothing"),
+                  cat("leave out --recode or ", name));
+}
+
+/// How many frames there can be at once, from what they cost.
+void plan_memory(const RenderArgs& args, Job& job) {
+  const int64_t limit = memory_limit(args.memory);
+  const FrameCost cost = frame_cost(args, job);
+  // With one thread nothing can go on beside anything.
+  job.frames_in_flight = thread_count() == 1 ? 1 : frames_in_flight(cost, limit);
+  const int64_t peak = peak_of(cost, job.frames_in_flight);
+  if (peak > limit)
+    log().warning(cat("one frame at a time may need ", size_text(peak), ", more than the ", size_text(limit), " of ",
+                      args.memory.empty() ? "half the machine's memory" : "--memory"));
+  log().detail(cat("up to ", job.frames_in_flight, " frames at once, ", size_text(peak), " of ", size_text(limit)));
+}
+
 /// "AO", or kOwnAoChannel in a file that has either in any view.
 std::string ao_channel_for(const io::FileInfo& info) {
   for (const std::string& view : io::views_of(info))
@@ -122,6 +158,14 @@ void check_channels(const Job& job, const pipeline::Outputs& outputs, const std:
                 "filter the channel in a run of its own");
 }
 
+/// Decoded bytes travel with a frame, unless many frames wait for those behind them.
+bool keeps_files(const std::vector<pipeline::ViewPipeline>& views) {
+  constexpr int kFewFrames = 1;
+  int waiting = 0;
+  for (const pipeline::Dependency& stage : views.front().dependencies()) waiting += stage.frames_after;
+  return waiting <= kFewFrames && views.front().layers(views.front().stages());
+}
+
 }  // namespace
 
 bool has_channel(const io::FileInfo& info, const std::string& view, const std::string& name) {
@@ -133,10 +177,14 @@ bool has_channel(const io::FileInfo& info, const std::string& view, const std::s
 
 Job resolve_job(const RenderArgs& args) {
   Job job;
-  job.preset = resolve_preset(args);
+  if (args.recode)
+    check_recode(args);
+  else
+    job.preset = resolve_preset(args);
   std::vector<std::string> channels;
   if (!args.ao_only) channels = pipeline::named_channels(job.preset.preset);
   job.input = open_input(args, channels);
+  job.named_channels = channels.size();
   job.preroll = preroll_of(args.preroll);
   job.written = job.input.frames;
   job.output_path = output_paths(args, job.input.found.pattern, job.written.size());
@@ -152,6 +200,8 @@ Job resolve_job(const RenderArgs& args) {
   }
   job.write.data_window = args.data_window == "grow" ? io::DataWindowPolicy::grow : io::DataWindowPolicy::keep;
   job.write.only_new_channels = args.ao_only;
+  job.write.recode = args.recode;
+  job.write.fsync = args.fsync == "on";
   const pipeline::Outputs outputs = outputs_of(args, job.input.source->info());
   if (!args.camera.empty() && job.input.source->has_header_camera(job.input.views.front()))
     log().note("--camera is not used: the frames have camera matrices in their headers");
@@ -160,6 +210,9 @@ Job resolve_job(const RenderArgs& args) {
       job.views.emplace_back(job.preset.preset, view, offer_of(job.input, view), outputs);
       check_channels(job, outputs, channels);
     });
+  job.keep_file = keeps_files(job.views);
+  job.input.source->keep_files(job.keep_file);
+  plan_memory(args, job);
   return job;
 }
 

@@ -47,12 +47,15 @@ preset::Resolved resolve_preset(const PresetArgs& args);
 /// Frames to write and where.
 struct Job {
   Input input;
-  preset::Resolved preset;
+  preset::Resolved preset;    ///< without stages: --recode
+  size_t named_channels = 0;  ///< channels that its stages filter
   std::vector<pipeline::ViewPipeline> views;
   std::vector<int> written;
   std::function<std::string(int)> output_path;
   io::WriteOptions write;
   int preroll = 40;
+  bool keep_file = false;       ///< frames carry the decoded bytes of their files to where they are written
+  size_t frames_in_flight = 1;  ///< in memory at once
 };
 Job resolve_job(const RenderArgs& args);
 

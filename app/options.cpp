@@ -106,6 +106,17 @@ const std::vector<Option<RenderArgs>>& render_options() {
                  "goes on after a frame that fails; the exit status is that of the first failure"});
     t.push_back({"--preroll", "FRAMES", &Args::preroll,
                  "frames filtered before the first written one to build up history; all is exact"});
+    t.push_back({"--recode", "", &Args::recode,
+                 "decodes and encodes every channel again and changes nothing: no preset, no AO"});
+    t.push_back(
+        {"--memory", "SIZE", &Args::memory,
+         "how much memory to use, such as 700M or 2G: how many frames are read and written while one is computed; "
+         "half of what the machine or its cgroup has by default"});
+    t.push_back({"--fsync",
+                 "SWITCH",
+                 &Args::fsync,
+                 "whether a file must have reached the disk before it gets its name",
+                 {"on", "off"}});
     t.push_back({"--progress", "KIND", &Args::progress, "progress on stderr", {"auto", "bar", "plain", "none"}});
     t.push_back(
         {"-n,--dry-run", "", &Args::dry_run, "checks everything, prints what would be written, writes nothing"});

@@ -1,5 +1,6 @@
 #include <cstdio>
 
+#include "app/frame_notes.h"
 #include "app/job.h"
 #include "app/log.h"
 #include "app/signals.h"
@@ -54,9 +55,15 @@ int run_job(Job& job, const RenderArgs& args) {
   io::SinkOptions sink_options;
   sink_options.write = job.write;
   sink_options.path = job.output_path;
-  sink_options.on_note = [](int, const std::string& text) { log().note(text); };
+  FrameNotes read, written;
+  sink_options.on_note = [&](int frame, const std::string& text) { written.add(frame, [text] { log().note(text); }); };
   io::FileSink sink(job.input.found.sequence, std::move(sink_options));
-  job.input.source->on_nan = log_nan;
+  job.input.source->on_nan = [&](int frame, const io::NanReport& report) {
+    read.add(frame, [frame, report] { log_nan(frame, report); });
+  };
+  job.input.source->on_note = [&read, say = job.input.source->on_note](int frame, const std::string& text) {
+    read.add(frame, [say, frame, text] { say(frame, text); });
+  };
 
   ProgressPrinter progress(progress_kind(args.progress, args.quiet));
   int status = 0;
@@ -65,7 +72,10 @@ int run_job(Job& job, const RenderArgs& args) {
   run.on_disk = job.input.found.sequence.frames();
   run.preroll = job.preroll;
   run.keep_going = args.keep_going;
+  run.frames_in_flight = job.frames_in_flight;
+  run.on_loaded = [&](int frame) { read.say(frame); };
   run.on_progress = [&](const pipeline::Progress& p) {
+    written.say(p.number);
     log_result(p, job.views);
     if (p.written) progress.update(p.number, p.done, p.total, p.milliseconds);
   };
@@ -74,14 +84,14 @@ int run_job(Job& job, const RenderArgs& args) {
     if (status == 0) status = exit_status(error.code());
   };
   run.should_stop = [] { return stop_signal() != 0; };
-  const size_t written = [&] {
+  const size_t complete = [&] {
     const GracefulStop graceful;
     return pipeline::run(job.views, *job.input.source, sink, run);
   }();
   progress.finish();
   log().summarise();
   if (stop_signal() != 0) {
-    log().note(cat("stopped by a signal: ", written, " of ", job.written.size(), " frames are complete"));
+    log().note(cat("stopped by a signal: ", complete, " of ", job.written.size(), " frames are complete"));
     end_by_signal(stop_signal());
   }
   return status;
@@ -90,14 +100,14 @@ int run_job(Job& job, const RenderArgs& args) {
 }  // namespace
 
 int render(const RenderArgs& args) {
-  if (args.print_config) {
+  if (args.print_config && !args.recode) {
     print_config(resolve_preset(args));
     return 0;
   }
   Job job = resolve_job(args);
   log().note(cat(job.input.found.pattern.text(), ": profile ", job.input.producer.profile.name, " (",
-                 job.input.producer.why, "), preset ", job.preset.preset.name, ", frames ",
-                 io::format_frames(job.written)));
+                 job.input.producer.why, "), ", args.recode ? "no preset" : "preset " + job.preset.preset.name,
+                 ", frames ", io::format_frames(job.written)));
   if (args.dry_run) {
     print_plan(job);
     return 0;

@@ -37,6 +37,7 @@ void* fresh(size_t bytes) {
 struct Block {
   void* memory;
   size_t bytes;
+  size_t kept_since = 0;  ///< counted in blocks taken
 };
 void release(Block block) noexcept { ::operator delete(block.memory, alignment_of(block.bytes)); }
 
@@ -45,6 +46,7 @@ class Pool {
   void* take(size_t bytes) {
     {
       const std::lock_guard lock(mutex_);
+      ++taken_;
       state_.used += bytes;
       state_.peak = std::max(state_.peak, state_.used);
       const auto newest = std::find_if(kept_.rbegin(), kept_.rend(), [&](const Block& b) { return b.bytes == bytes; });
@@ -54,7 +56,7 @@ class Pool {
         state_.kept -= bytes;
         return memory;
       }
-      while (!kept_.empty() && state_.used + state_.kept > state_.peak) drop_oldest();
+      while (!kept_.empty() && state_.used + state_.kept > state_.peak) drop_one();
     }
     try {
       return fresh(bytes);
@@ -73,6 +75,7 @@ class Pool {
   void give(Block block) noexcept {
     const std::lock_guard lock(mutex_);
     state_.used -= block.bytes;
+    block.kept_since = taken_;
     try {
       if (kKeeps) kept_.push_back(block);
     } catch (const std::bad_alloc&) {
@@ -87,7 +90,7 @@ class Pool {
 
   void release_kept() noexcept {
     const std::lock_guard lock(mutex_);
-    while (!kept_.empty()) drop_oldest();
+    while (!kept_.empty()) drop(kept_.begin());
   }
 
   PlaneMemory state() {
@@ -96,15 +99,23 @@ class Pool {
   }
 
  private:
-  void drop_oldest() noexcept {
-    release(kept_.front());
-    state_.kept -= kept_.front().bytes;
-    kept_.erase(kept_.begin());
+  /// Frames take the same sizes in the same order, so what was kept first is what is wanted next, unless nobody has
+  /// wanted it for several frames.
+  void drop_one() noexcept {
+    constexpr size_t kStale = 2000;
+    drop(taken_ - kept_.front().kept_since > kStale ? kept_.begin() : std::prev(kept_.end()));
+  }
+
+  void drop(std::vector<Block>::iterator block) noexcept {
+    release(*block);
+    state_.kept -= block->bytes;
+    kept_.erase(block);
   }
 
   std::mutex mutex_;
   std::vector<Block> kept_;  ///< the one kept longest first
   PlaneMemory state_;
+  size_t taken_ = 0;
 };
 
 /// Never destroyed: planes may outlive any static object.

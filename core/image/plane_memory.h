@@ -11,10 +11,10 @@ float* take_plane_memory(size_t bytes);
 /// Gives back what take_plane_memory(bytes) returned.
 void return_plane_memory(float* memory, size_t bytes) noexcept;
 
-/// Bytes in planes of at least 128 KiB (smaller ones are never kept), an eighth more at most for sizes that differ a
-/// little to be the same; bytes kept for others; the most there ever were
-/// in planes. Kept memory never lifts the sum above that peak: before more is asked of the system, the memory kept
-/// longest goes back. Builds with AddressSanitizer keep none, so that it sees every use after the end.
+/// Bytes in planes of at least 128 KiB (smaller ones are never kept), an eighth more at most, for sizes that differ a
+/// little to be the same; bytes kept for others; the most there ever were in planes. Kept memory never lifts the sum
+/// above that peak: before more is asked of the system, some goes back. Builds with AddressSanitizer keep none, so that
+/// it sees every use after the end.
 struct PlaneMemory {
   size_t used = 0, kept = 0, peak = 0;
 };

@@ -276,6 +276,7 @@ void FileSource::check_layers_and_named(const std::string& view) const {
             "choose other layers with --ao-layers and --blur-layers, or filter the channel in a run of its own");
 }
 
+void FileSource::keep_files(bool keep) { state_->options.keep_file = keep; }
 const FileInfo& FileSource::info() const { return state_->resolved.first; }
 std::vector<std::string> FileSource::views() const { return views_of(state_->resolved.first); }
 const std::vector<RoleBinding>& FileSource::roles(const std::string& view) const { return state_->view(view).roles; }

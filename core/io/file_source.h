@@ -78,6 +78,9 @@ class FileSource final : public FrameSource {
   /// Do the frames have camera matrices of their own? Then a camera file is not used.
   bool has_header_camera(const std::string& view) const;
 
+  /// SourceOptions::keep_file from now on.
+  void keep_files(bool keep);
+
   /// Called once per loaded frame that has NaN or Inf in a channel.
   std::function<void(int frame, const NanReport&)> on_nan;
   /// What the log should say about the input, again for each frame: a role that cannot be used, a camera that looks
