@@ -17,29 +17,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace aftershade::ao::HWY_NAMESPACE {
 
-DepthLevels depth_levels(const filter::DepthPyramid& pyramid, bool mips) {
-  const ConstPlaneView plane = pyramid.mips();
-  DepthLevels out{Samples(pyramid.level(0)),
-                  plane.data,
-                  static_cast<int>(plane.stride),
-                  mips ? std::min(pyramid.levels(), kDepthLevels) : 1,
-                  pyramid.origin_x(),
-                  pyramid.origin_y(),
-                  {},
-                  {},
-                  {},
-                  {}};
-  for (int m = 0; m < out.count; ++m) {
-    const auto i = static_cast<size_t>(m);
-    out.whole[i] = -(1 << m);
-    for (int bit = m - 1; bit >= 0; --bit) (((m - bit) & 1) != 0 ? out.odd : out.even)[i] |= 1 << bit;
-    if (m == 0) continue;
-    const auto begin = static_cast<int32_t>(pyramid.level(m).data - plane.data);
-    out.first[i] = begin - (pyramid.origin_y() >> m) * out.mip_stride - (pyramid.origin_x() >> m);
-  }
-  return out;
-}
-
 /// By the lowest two bits of a texel's absolute row; `texel_x`: absolute column of the grid's first. `turns` is added
 /// to every texel's rotation, a mirrored pattern repeats after half a turn.
 std::array<DirectionTable, 4> direction_tables(std::span<const Tap> taps, TapPattern pattern, float turns,

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/ao/depth_levels.h"
 #include "core/ao/scalable_ao.h"
 #include "core/ao/tap_pattern.h"
 #include "core/filter/lane_geometry.h"
@@ -18,18 +19,7 @@ namespace aftershade::ao::HWY_NAMESPACE {
 using namespace lanes::HWY_NAMESPACE;
 using namespace filter::HWY_NAMESPACE;
 
-inline constexpr int kLogMaxOffset = 3;    ///< SAO's LOG_MAX_OFFSET: taps nearer than 16 px read level 0
 inline constexpr float kMinTapPx = 0.75F;  ///< SAO: a tap never falls on the pixel itself
-
-/// The depth pyramid, read so that each value is put where it was taken.
-struct DepthLevels {
-  Samples image;
-  const float* mips;  ///< all levels but the image, in one plane
-  int mip_stride, count;
-  int origin_x, origin_y;  ///< absolute coordinates of level 0's index (0, 0)
-  /// By level: where absolute texel (0, 0) would be in `mips`, and what puts pixels under texels (seen_through).
-  std::array<int32_t, 16> first, whole, odd, even;
-};
 
 /// Taps in their directions at one row of the 4x4 pattern: kColumns values a tap and axis, of which the lanes of x0
 /// load kLanes from x0 & 3 on.
@@ -52,49 +42,11 @@ struct ScalableAoRow {
   float* out;
 };
 
-struct Texels {
-  Int x, y;
-};
-
-/// The pixel whose depth level `m` has over pixel (x, y), absolute coordinates, by the walk down from level to level:
-/// z_{m+1}(x,y) = z_m(2x + (y&1), 2y + (x&1)), clamped to the image.
-inline Texels walked_down(const DepthLevels& depth, Int x, Int y, Int m) {
-  Texels at{x >> m, y >> m};
-  for (int finer = kDepthLevels - 2; finer >= 0; --finer) {
-    const Mask on_the_way = m >= Int(finer + 1);
-    const auto step = [&](Int next, Int stay, int origin, int size) {
-      return select(on_the_way, clamp(next, origin >> finer, (origin + size - 1) >> finer), stay);
-    };
-    const Int next_x = (at.x << 1) + (at.y & 1), next_y = (at.y << 1) + (at.x & 1);
-    at = {step(next_x, at.x, depth.origin_x, depth.image.width),
-          step(next_y, at.y, depth.origin_y, depth.image.height)};
-  }
-  return at;
-}
-
-/// The same at once where nothing is clamped: below the texel's own bits, the lowest bit of its row and that of its
-/// column take turns.
-inline Texels seen_through(const DepthLevels& depth, Int x, Int y, Int m) {
-  const Int whole = look_up(depth.whole.data(), m), odd = look_up(depth.odd.data(), m),
-            even = look_up(depth.even.data(), m);
-  const Int from_x = Int(0) - ((x >> m) & 1), from_y = Int(0) - ((y >> m) & 1);  // no bit or all bits
-  return {(x & whole) | (odd & from_y) | (even & from_x), (y & whole) | (odd & from_x) | (even & from_y)};
-}
-
-/// The point that the tap at pixel (x, y) sees through pyramid level `m`: the level's texel over the pixel holds the
-/// depth of one pixel below it; the point is unprojected from there, so that a plane stays a plane. (SAO unprojects
-/// from the tap's own pixel and leans on the bias.)
+/// The point that the tap at pixel (x, y) sees through pyramid level `m`, unprojected from where its depth was taken, so
+/// that a plane stays a plane. (SAO unprojects from the tap's own pixel and leans on the bias.)
 inline Point tap_point(const DepthLevels& depth, const Lens& lens, Int x, Int y, Int m) {
-  const Mask fine = m < Int(1);
-  if (all(fine)) return unproject(lens, to_float(x), to_float(y), depth.image(x, y));
-  const Int absolute_x = x + Int(depth.origin_x), absolute_y = y + Int(depth.origin_y);
-  Texels pixel = seen_through(depth, absolute_x, absolute_y, m);
-  if (!all(depth.image.contains(pixel.x - Int(depth.origin_x), pixel.y - Int(depth.origin_y))))
-    pixel = walked_down(depth, absolute_x, absolute_y, m);
-  const Int texel = look_up(depth.first.data(), m) + (absolute_y >> m) * Int(depth.mip_stride) + (absolute_x >> m);
-  Float z = gather(depth.mips, select(fine, Int(0), texel));
-  if (any(fine)) z = select(fine, depth.image(x, y), z);
-  return unproject(lens, to_float(pixel.x - Int(depth.origin_x)), to_float(pixel.y - Int(depth.origin_y)), z);
+  const DepthSample sample = depth_sample(depth, x, y, m);
+  return unproject(lens, to_float(sample.x), to_float(sample.y), sample.z);
 }
 
 /// Of d = |v| / r. Linear: "Falloff Function" slide; the others: SAO's factors without their units (algorithms 4.3, B
