@@ -20,7 +20,7 @@ constexpr const char* kUsage =
     "  --folder FOLDER     works there and leaves the frames for the next run; by default in /dev/shm, all of it "
     "removed\n"
     "  --disk FOLDER       measures the cost of fsync there too\n"
-    "  --offline           also runs the preset offline, which is slow\n"
+    "  --offline           also runs the preset offline, which is slow, on 3 frames\n"
     "  --cores N           processors to use of those allowed, 2 by default\n";
 
 void make_smoke(Options& options) {

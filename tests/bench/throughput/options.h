@@ -12,7 +12,8 @@ struct Options {
   int frames = 24;         ///< made, at `size`
   int large_frames = 4;    ///< made, at `large`
   int linked_frames = 12;  ///< worked on where the sizes are compared: links to the first large_frames of both
-  int memory_frames = 200, offline_frames = 8;
+  int memory_frames = 200;
+  int offline_frames = 3;                       ///< in the middle of those made: the preset looks far to both sides
   int repetitions = 3, quick_repetitions = 20;  ///< of whole jobs; of what takes less than a second
   int cores = 2;
   std::filesystem::path folder;  ///< empty: one of its own, that goes when the program ends

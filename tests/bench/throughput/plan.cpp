@@ -140,8 +140,10 @@ void Plan::run(Jobs& jobs) const {
   if (!options_.disk.empty()) jobs.run(disk_jobs(), options_.repetitions);
   if (options_.memory_frames > 0) jobs.run_and_drop_files(whole(kMemory, many_, {}));
   if (!options_.offline) return;
-  const Job offline = whole(kOffline, frames_, {"--preset", "offline", "--frames", cat("1-", options_.offline_frames)});
-  jobs.run_and_drop_files({offline.name, offline.commands, offline.out, options_.offline_frames});
+  const int first = 1 + (frames_.frames - options_.offline_frames) / 2, last = first + options_.offline_frames - 1;
+  Job offline = whole(kOffline, frames_, {"--preset", "offline", "--frames", cat(first, "-", last)});
+  offline.frames = options_.offline_frames;
+  jobs.run_and_drop_files(offline);
 }
 
 params::Json Plan::json_of(Command command, const std::string& name) const {
