@@ -56,7 +56,7 @@ class Pool {
         state_.kept -= bytes;
         return memory;
       }
-      while (!kept_.empty() && state_.used + state_.kept > state_.peak) drop_one();
+      while (!kept_.empty() && state_.used + state_.kept > state_.peak + state_.peak / 4) drop_one();
     }
     try {
       return fresh(bytes);

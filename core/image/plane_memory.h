@@ -13,7 +13,8 @@ void return_plane_memory(float* memory, size_t bytes) noexcept;
 
 /// Bytes in planes of at least 128 KiB (smaller ones are never kept), an eighth more at most, for sizes that differ a
 /// little to be the same; bytes kept for others; the most there ever were in planes. Kept memory never lifts the sum
-/// above that peak: before more is asked of the system, some goes back. Builds with AddressSanitizer keep none, so that
+/// above five quarters of that peak: before more is asked of the system, some goes back. (Without the quarter, the
+/// sizes of a frame's phases push each other out, frame after frame.) Builds with AddressSanitizer keep none, so that
 /// it sees every use after the end.
 struct PlaneMemory {
   size_t used = 0, kept = 0, peak = 0;
