@@ -277,18 +277,17 @@ bool RunDeflate::find_blocks(std::span<const uint8_t> bytes, std::span<const uin
   blocks_.clear();
   seen_.assign(size_t{1} << kHashBits, 0);
   searches_.assign(2 * kinds, Search::everything);
-  const size_t half = lengths.size() / 2,
-               deciding = half > kinds ? 1 : 0;  // the second row of each half, if it has one
+  const size_t half = lengths.size() / 2;
   double bits = 0;
   size_t start = 0;
   for (size_t i = 0; i < lengths.size(); ++i) {
     const size_t end = start + lengths[i], row = i % half / kinds;
     Search& search = searches_[i % kinds + (i < half ? 0 : kinds)];
-    const Block next = row == deciding ? find_best_tokens(bytes.data(), start, end, search)
-                                       : find_tokens(bytes.data(), start, end, search);
+    const Block next =
+        row == 1 ? find_best_tokens(bytes.data(), start, end, search) : find_tokens(bytes.data(), start, end, search);
     start = end;
     bits += next.bits();
-    if (i + 1 == (deciding + 1) * kinds && bits < kNoisy * 8 * static_cast<double>(end)) return false;
+    if (i + 1 == 2 * kinds && bits < kNoisy * 8 * static_cast<double>(end)) return false;
     if (!blocks_.empty()) {
       Block both = blocks_.back();
       both.add(next);
@@ -305,7 +304,8 @@ bool RunDeflate::find_blocks(std::span<const uint8_t> bytes, std::span<const uin
 size_t RunDeflate::deflate(std::span<const uint8_t> bytes, std::span<const uint32_t> lengths, size_t kinds,
                            std::span<uint8_t> target) {
   constexpr size_t kHead = 2, kAdler = 4, kShortest = 800;  // a code of its own costs some 80 bytes
-  if (bytes.size() < kShortest * lengths.size() || target.size() < kHead + kAdler) return 0;
+  if (lengths.size() < 4 * kinds || bytes.size() < kShortest * lengths.size() || target.size() < kHead + kAdler)
+    return 0;
   if (!find_blocks(bytes, lengths, kinds)) return 0;
   target[0] = 0x78, target[1] = 0x01;  // Deflate, window of 32 KiB
   Writer writer(bytes.data(), tokens_.data(), target.subspan(kHead, target.size() - kHead - kAdler));

@@ -17,7 +17,8 @@ namespace aftershade::io {
 class RunDeflate {
  public:
   /// `lengths`: of the stretches that make up `bytes`: two halves alike, each of rows of `kinds` stretches. Returns the
-  /// size of the stream; 0 when `target` has no room for it, or when the bytes are not of the kind.
+  /// size of the stream; 0 when `target` has no room for it, or when the bytes are not of the kind: single rows, short
+  /// stretches, little noise.
   size_t deflate(std::span<const uint8_t> bytes, std::span<const uint32_t> lengths, size_t kinds,
                  std::span<uint8_t> target);
 

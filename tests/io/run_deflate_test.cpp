@@ -60,7 +60,7 @@ TEST(RunDeflate, DecodersGiveBackNoiseOfAnyKind) {
   std::mt19937 random(3);
   int packed = 0;
   for (int round = 0; round < 60; ++round) {
-    const size_t kinds = 1 + random() % 5, rows = 1 + random() % 4, length = 800 + random() % 3000;
+    const size_t kinds = 1 + random() % 5, rows = 2 + random() % 3, length = 800 + random() % 3000;
     const int shift = static_cast<int>(random() % 4);
     std::normal_distribution<double> bell(128, static_cast<double>(1 + random() % 30));
     const auto [bytes, lengths] = halves(rows, kinds, length, [&](size_t, size_t kind, size_t i) -> size_t {
@@ -107,6 +107,9 @@ TEST(RunDeflate, LeavesToOthersWhatIsNotNoisy) {
   EXPECT_EQ(packed_size(flat, lengths, 2, "flat"), 0U);
   const auto [narrow, short_lengths] = halves(4, 2, 100, [](size_t row, size_t, size_t i) { return i * i * row; });
   EXPECT_EQ(packed_size(narrow, short_lengths, 2, "narrow"), 0U);
+  std::mt19937 random(1);
+  const auto [one_row, row_lengths] = halves(1, 2, 2000, [&](size_t, size_t, size_t) { return random(); });
+  EXPECT_EQ(packed_size(one_row, row_lengths, 2, "one row"), 0U);
 }
 
 TEST(RunDeflate, NeverWritesPastItsRoom) {
