@@ -2,7 +2,7 @@
 
 namespace aftershade::motionblur {
 
-/// The longest vector met so far in each pixel column; `square` starts at 0 (so does a column of zeros).
+/// The longest vector in each pixel column, with the square of its length; 0 where all are.
 struct ColumnMax {
   float *square, *x, *y;
 };

@@ -12,9 +12,13 @@
 HWY_BEFORE_NAMESPACE();
 namespace aftershade::motionblur::HWY_NAMESPACE {
 
-/// The longest velocity in each column of pixels of rows first to last - 1; `best` is cleared.
+/// The longest velocity in each column of pixels of rows first to last - 1.
 void column_max(const HalfVelocity& velocity, int first, int last, const ColumnMax& best) {
-  for (int y = first; y < last; ++y) column_max_row(velocity.x.row(y), velocity.y.row(y), velocity.x.width(), best);
+  constexpr int kBlock = 4;  // vectors whose maxima stay in registers
+  int x = 0;
+  for (; x + kBlock * kLanes <= velocity.x.width(); x += kBlock * kLanes)
+    column_max_block<kBlock>(velocity.x, velocity.y, first, last, x, best);
+  for (; x < velocity.x.width(); x += kLanes) column_max_block<1>(velocity.x, velocity.y, first, last, x, best);
 }
 
 }  // namespace aftershade::motionblur::HWY_NAMESPACE
@@ -36,6 +40,17 @@ struct Longest {
   }
 };
 
+/// The first of the longest columns first to last - 1. Branches that nobody foresees cost more than the second look.
+int longest_column(const float* square, int first, int last) {
+  float most[4] = {};
+  int x = first;
+  for (; x + 4 <= last; x += 4)
+    for (int i = 0; i < 4; ++i) most[i] = std::max(most[i], square[x + i]);
+  for (; x < last; ++x) most[0] = std::max(most[0], square[x]);
+  const float longest = std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
+  return static_cast<int>(std::find(square + first, square + last - 1, longest) - square);
+}
+
 }  // namespace
 
 TileGrid::TileGrid(int tile, Window window)
@@ -56,15 +71,15 @@ HalfVelocity tile_max(const HalfVelocity& velocity, int tile, Window window) {
   const int width = velocity.x.width(), height = velocity.x.height();
   HalfVelocity out{Plane(grid.columns(), grid.rows()), Plane(grid.columns(), grid.rows())};
   for_rows(grid.rows(), [&](int row) {
-    Plane columns(width, 3);
+    Plane columns = Plane::for_overwrite(width, 3);
     const ColumnMax best{columns.row(0), columns.row(1), columns.row(2)};
     HWY_DYNAMIC_DISPATCH(column_max)(velocity, grid.first_row(row), std::min(grid.first_row(row + 1), height), best);
+    int first = 0;
     for (int column = 0; column < grid.columns(); ++column) {
-      Longest longest;
-      for (int x = grid.first_column(column); x < std::min(grid.first_column(column + 1), width); ++x)
-        longest.take(best.square[x], best.x[x], best.y[x]);
-      out.x(column, row) = longest.x;
-      out.y(column, row) = longest.y;
+      const int last = std::min(grid.first_column(column + 1), width), x = longest_column(best.square, first, last);
+      first = last;
+      out.x(column, row) = best.x[x];
+      out.y(column, row) = best.y[x];
     }
   });
   return out;
