@@ -11,6 +11,7 @@
 #include "core/motionblur/gather_plus.h"
 #include "core/motionblur/scalable_blur.h"
 #include "core/motionblur/tile_max.h"
+#include "core/preset/preset.h"
 #include "tests/bench/kernels/kernels.h"
 
 namespace aftershade::tests::kernels {
@@ -27,9 +28,8 @@ void add_ao(std::vector<Kernel>& list, Inputs& in) {
   scalable.radius_m = kRadius_m;
   list.push_back(
       {"scalable-ao", true, [&in, scalable] { ao::scalable_ao(scalable, in.surface, in.pyramid, in.grid, 0); }});
-  ao::SliceAoParams slices;
-  slices.slices = slices.steps = 3, slices.radius_m = kRadius_m, slices.pixel_filter_px = 0;
-  slices.thickness = ao::ThicknessModel::constant, slices.border = ao::Border::open;
+  auto slices = std::get<ao::SliceAoParams>(preset::load_preset("slices").preset.stages.at(0).params);
+  slices.radius_m = kRadius_m;
   list.push_back({"slice-ao, 18 taps", true,
                   [&in, slices] { ao::slice_ao(slices, in.surface, filter::full_grid(in.surface), 0); }});
   list.push_back(

@@ -14,11 +14,10 @@ namespace {
 
 const pipeline::Offer kOffer{{Role::depth, Role::normal, Role::velocity_prev}, true, true};
 
-preset::Preset preset_of(const params::Json& json) { return preset::from_json(json, "bench.json"); }
-
-preset::Preset blur_of_high_dx11() {
-  preset::Preset preset = preset::load_preset("high-dx11").preset;
-  std::erase_if(preset.stages, [](const auto& stage) { return stage.id != "motion_blur"; });
+/// Only these stages of a shipped preset.
+preset::Preset stages_of(const std::string& name, const std::vector<std::string>& ids) {
+  preset::Preset preset = preset::load_preset(name).preset;
+  std::erase_if(preset.stages, [&](const auto& stage) { return std::ranges::count(ids, stage.id) == 0; });
   return preset;
 }
 
@@ -37,9 +36,9 @@ struct Timed {
 
 std::vector<Timed> timed_stages() {
   std::vector<Timed> out;
-  out.push_back({kBlurDx11, {blur_of_high_dx11(), kOffer}, {}, {}});
-  out.push_back({kBlurGatherPlus, {preset_of(gather_plus_preset()), kOffer}, {}, {}});
-  out.push_back({kSliceAo, {preset_of(slice_ao_preset()), kOffer}, {}, {}});
+  out.push_back({kBlurDx11, {stages_of("high-dx11", {"motion_blur"}), kOffer}, {}, {}});
+  out.push_back({kBlurGatherPlus, {preset::from_json(gather_plus_preset(), "gather-plus.json"), kOffer}, {}, {}});
+  out.push_back({kSliceAo, {stages_of("slices", {"ao", "blur"}), kOffer}, {}, {}});
   return out;
 }
 
@@ -67,15 +66,6 @@ std::vector<std::string> measured_targets() {
 params::Json gather_plus_preset() {
   return {{"description", "gather-plus alone"},
           {"stages", {{{"id", "motion_blur"}, {"method", "gather-plus"}, {"shutter_frames", 0.5}}}}};
-}
-
-params::Json slice_ao_preset() {
-  const params::Json ao{
-      {"id", "ao"},    {"method", "slice-ao"}, {"resolution", "full"},    {"slices", 3},         {"steps", 3},
-      {"radius_m", 1}, {"border", "open"},     {"thickness", "constant"}, {"pixel_filter_px", 0}};
-  const params::Json denoise{
-      {"id", "denoise"}, {"method", "bilateral-blur"}, {"radius_px", 1}, {"reference_height_px", 1080}};
-  return {{"description", "slices, 18 taps a pixel, denoised over 3x3 pixels"}, {"stages", {ao, denoise}}};
 }
 
 params::Json measure_stages(const FrameSet& set, int repetitions) {
