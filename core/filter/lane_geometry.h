@@ -161,10 +161,4 @@ inline Float plane_distance(Point v, Point normal) {
 
 }  // namespace aftershade::filter::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-
-#if HWY_TARGET == HWY_SCALAR
-namespace aftershade::filter {
-using namespace N_SCALAR;
-}
-#endif
 #endif

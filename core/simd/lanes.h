@@ -35,10 +35,4 @@ inline Mask is_finite(Float x) { return abs(x) <= 3.402823466e38F; }
 
 }  // namespace aftershade::lanes::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-
-#if HWY_TARGET == HWY_SCALAR
-namespace aftershade::lanes {
-using namespace N_SCALAR;
-}
-#endif
 #endif
