@@ -59,6 +59,40 @@ void add_common(std::vector<Option<Args>>& t) {
   t.push_back({"-v,--verbose", "", &Args::verbose, "says more: stages and their times, every note of every frame"});
 }
 
+/// How a run goes about its frames.
+void add_running(std::vector<Option<RenderArgs>>& t) {
+  using Args = RenderArgs;
+  t.push_back({"--missing",
+               "POLICY",
+               &Args::missing,
+               "what to do about holes in the sequence, before frame 1",
+               {"error", "skip"}});
+  t.push_back({"--existing",
+               "POLICY",
+               &Args::existing,
+               "what to do about output files that exist; skip leaves complete ones",
+               {"overwrite", "skip", "error"}});
+  t.push_back({"--keep-going", "", &Args::keep_going,
+               "goes on after a frame that fails; the exit status is that of the first failure"});
+  t.push_back({"--preroll", "FRAMES", &Args::preroll,
+               "frames filtered before the first written one to build up history; all is exact"});
+  t.push_back(
+      {"--recode", "", &Args::recode, "decodes and encodes every channel again and changes nothing: no preset, no AO"});
+  t.push_back(
+      {"--memory", "SIZE", &Args::memory,
+       "how much memory to use, such as 700M or 2G: how many frames are read and written while one is computed; "
+       "half of what the machine or its cgroup has by default"});
+  t.push_back({"--fsync",
+               "SWITCH",
+               &Args::fsync,
+               "whether a file must have reached the disk before it gets its name",
+               {"on", "off"}});
+  t.push_back({"--progress", "KIND", &Args::progress, "progress on stderr", {"auto", "bar", "plain", "none"}});
+  t.push_back({"-n,--dry-run", "", &Args::dry_run, "checks everything, prints what would be written, writes nothing"});
+  t.push_back({"--print-config", "", &Args::print_config,
+               "prints every value of the preset and where it came from, writes nothing"});
+}
+
 }  // namespace
 
 const std::vector<Option<RenderArgs>>& render_options() {
@@ -92,36 +126,7 @@ const std::vector<Option<RenderArgs>>& render_options() {
     t.push_back({"--compression", "NAME", &Args::compression,
                  "compression of changed parts: none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa, dwab, or keep; by "
                  "default kept unless lossy"});
-    t.push_back({"--missing",
-                 "POLICY",
-                 &Args::missing,
-                 "what to do about holes in the sequence, before frame 1",
-                 {"error", "skip"}});
-    t.push_back({"--existing",
-                 "POLICY",
-                 &Args::existing,
-                 "what to do about output files that exist; skip leaves complete ones",
-                 {"overwrite", "skip", "error"}});
-    t.push_back({"--keep-going", "", &Args::keep_going,
-                 "goes on after a frame that fails; the exit status is that of the first failure"});
-    t.push_back({"--preroll", "FRAMES", &Args::preroll,
-                 "frames filtered before the first written one to build up history; all is exact"});
-    t.push_back({"--recode", "", &Args::recode,
-                 "decodes and encodes every channel again and changes nothing: no preset, no AO"});
-    t.push_back(
-        {"--memory", "SIZE", &Args::memory,
-         "how much memory to use, such as 700M or 2G: how many frames are read and written while one is computed; "
-         "half of what the machine or its cgroup has by default"});
-    t.push_back({"--fsync",
-                 "SWITCH",
-                 &Args::fsync,
-                 "whether a file must have reached the disk before it gets its name",
-                 {"on", "off"}});
-    t.push_back({"--progress", "KIND", &Args::progress, "progress on stderr", {"auto", "bar", "plain", "none"}});
-    t.push_back(
-        {"-n,--dry-run", "", &Args::dry_run, "checks everything, prints what would be written, writes nothing"});
-    t.push_back({"--print-config", "", &Args::print_config,
-                 "prints every value of the preset and where it came from, writes nothing"});
+    add_running(t);
     add_input(t);
     add_common(t);
     return t;
