@@ -12,6 +12,7 @@
 #include "core/ao/thickness.h"
 #include "core/math/sampling.h"
 #include "core/parallel/rows.h"
+#include "core/simd/targets.h"
 #include "tests/filter/analytic_surface.h"
 
 namespace aftershade::tests {
@@ -208,6 +209,73 @@ TEST(SliceAo, IsTheSameToTheBitOnAnyNumberOfThreads) {
     EXPECT_EQ(differing_pixels(one, occlude({}, p)), 0) << threads;
   }
   set_thread_count(0);
+}
+
+TEST(SliceAo, IsTheSameToTheBitOnEverySimdTarget) {
+  const Lens lens{150, 140, 70, 50};
+  Picture p = picture(141, 93, lens, blades(lens, 0.1), -5, 3);
+  const float bad[] = {kNan, kInf, -kInf, 0.0F, -3.0F, 1e-38F};
+  for (int i = 0; i < 120; ++i) p.depth((i * 37) % 141, (i * 53) % 93) = bad[i % 6];
+  for (int i = 0; i < 60; ++i) p.normals[static_cast<size_t>(i % 3)]((i * 41) % 141, (i * 59) % 93) = bad[i % 3];
+  Plane behind(141, 93, kInf);
+  for (int y = 0; y < 93; ++y)
+    for (int x = 0; x < 141; ++x) behind(x, y) = (x + y) % 5 == 0 ? kNan : p.depth(x, y) * 1.05F;
+  SliceAoParams fast = sharp();
+  fast.slices = fast.steps = 3;
+  fast.thickness = ThicknessModel::constant;
+  fast.noise_tile = ao::NoiseTile::three;
+  fast.depth_mips = true;
+  SliceAoParams open = fast, half = SliceAoParams{}, every = sharp();
+  open.border = Border::open;
+  open.radius_m = 20;
+  half.resolution = ao::Resolution::half;
+  half.depth_mips = true;
+  every.slices = 1;
+  every.steps = 0;
+  for (const SliceAoParams& params : {fast, open, half, every})
+    for (const ConstPlaneView depth2 : {ConstPlaneView(), ConstPlaneView(behind)}) {
+      lanes::force_target("scalar");
+      const Plane twin = occlude(params, p, 7, depth2);
+      for (const std::string& target : lanes::targets()) {
+        lanes::force_target(target);
+        EXPECT_EQ(differing_pixels(twin, occlude(params, p, 7, depth2)), 0) << target << params.steps;
+      }
+      lanes::force_target(lanes::targets().front());
+    }
+}
+
+TEST(SliceAo, DepthMipsKeepAPlaneOpenAndOtherwiseHardlyMatter) {
+  const Lens lens{600, 600, 160, 120};
+  SliceAoParams params = sharp();
+  params.slices = 4;
+  params.depth_mips = true;
+  EXPECT_GE(least(occlude(params, picture(320, 240, lens, slanted_plane(lens), 5, -3))), 1 - 1e-5F);
+  const Picture p = picture(320, 240, lens, blades(lens, 0.25));
+  const double reduced = mean(occlude(params, p));
+  params.depth_mips = false;
+  const double full = mean(occlude(params, p));
+  EXPECT_NE(reduced, full);
+  EXPECT_NEAR(reduced, full, 0.01);
+}
+
+TEST(SliceAo, TurnsRepeatAfterTheNoiseTile) {
+  for (const ao::NoiseTile tile : {ao::NoiseTile::four, ao::NoiseTile::three}) {
+    const int size = tile == ao::NoiseTile::three ? 3 : 4;
+    const ao::SliceTurns turns(tile, 2, 0.3);
+    EXPECT_EQ(turns.cell(-1), size - 1);
+    EXPECT_EQ(turns.cell(size), 0);
+    std::vector<float> offsets;
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x) {
+        offsets.push_back(turns.offsets(y)[x]);
+        EXPECT_EQ(turns.offsets(y)[x], turns.offsets(y)[x + size]);
+        EXPECT_EQ(turns.cos(y, 1)[x], turns.cos(y, 1)[x + size]);
+        EXPECT_NEAR(turns.cos(y, 0)[x], turns.sin(y, 1)[x], 1e-6) << "a right angle apart";
+      }
+    std::sort(offsets.begin(), offsets.end());
+    EXPECT_EQ(std::unique(offsets.begin(), offsets.end()), offsets.end());
+    EXPECT_TRUE(offsets.front() >= 0 && offsets.back() < 1);
+  }
 }
 
 TEST(SliceAo, DoesNotDependOnTheUnitOfLength) {
