@@ -11,7 +11,7 @@ struct Options {
   Size size, large{3840, 2160};
   int frames = 24;         ///< made, at `size`
   int large_frames = 4;    ///< made, at `large`
-  int linked_frames = 12;  ///< worked on where the sizes are compared: links to the first large_frames of both
+  int linked_frames = 24;  ///< worked on where the sizes are compared: links to the first large_frames of both
   int memory_frames = 200;
   int offline_frames = 3;                       ///< in the middle of those made: the preset looks far to both sides
   int repetitions = 3, quick_repetitions = 20;  ///< of whole jobs; of what takes less than a second
