@@ -16,8 +16,7 @@ namespace aftershade::ao::HWY_NAMESPACE {
 using namespace lanes::HWY_NAMESPACE;
 using namespace filter::HWY_NAMESPACE;
 
-inline constexpr int kDepthLevelsMost = 6;  ///< the image and five mips (SAO's MAX_MIP_LEVEL, algorithms 4.2)
-inline constexpr int kLogMaxOffset = 3;     ///< SAO's LOG_MAX_OFFSET: taps nearer than 16 px read level 0
+inline constexpr int kLogMaxOffset = 3;  ///< SAO's LOG_MAX_OFFSET: taps nearer than 16 px read level 0
 
 /// The depth pyramid, read so that each value is put where it was taken.
 struct DepthLevels {
@@ -34,7 +33,7 @@ inline DepthLevels depth_levels(const filter::DepthPyramid& pyramid, bool mips) 
   DepthLevels out{Samples(pyramid.level(0)),
                   plane.data,
                   static_cast<int>(plane.stride),
-                  mips ? std::min(pyramid.levels(), kDepthLevelsMost) : 1,
+                  mips ? std::min(pyramid.levels(), filter::kDepthLevels) : 1,
                   pyramid.origin_x(),
                   pyramid.origin_y(),
                   {},
@@ -60,7 +59,7 @@ struct Texels {
 /// z_{m+1}(x,y) = z_m(2x + (y&1), 2y + (x&1)), clamped to the image.
 inline Texels walked_down(const DepthLevels& depth, Int x, Int y, Int m) {
   Texels at{x >> m, y >> m};
-  for (int finer = kDepthLevelsMost - 2; finer >= 0; --finer) {
+  for (int finer = filter::kDepthLevels - 2; finer >= 0; --finer) {
     const Mask on_the_way = m >= Int(finer + 1);
     const auto step = [&](Int next, Int stay, int origin, int size) {
       return select(on_the_way, clamp(next, origin >> finer, (origin + size - 1) >> finer), stay);

@@ -7,9 +7,6 @@
 
 namespace aftershade::ao {
 
-/// Levels of the depth pyramid that taps read: the image and five mips (SAO's MAX_MIP_LEVEL, algorithms 4.2).
-inline constexpr int kDepthLevels = 6;
-
 enum class TapPattern { mirrored, spiral };
 enum class DistanceFalloff { linear, quadratic, cubic, none };  ///< of d = |v| / r: 1-d, 1-d^2, (1-d^2)^3, 1 up to r
 enum class RadiusClamp { radius, taps };                        ///< what max_radius_px shortens

@@ -88,7 +88,7 @@ Plane slice_ao(const SliceAoParams& params, const filter::Surface& surface, cons
   // Successive multiples of the golden ratio turn the whole pattern from frame to frame.
   const SliceTurns turns(params.noise_tile, params.slices,
                          params.per_frame_noise ? frame_number * 0.6180339887498949 : 0);
-  const filter::DepthPyramid pyramid(surface.depth, params.depth_mips ? HWY_NAMESPACE::kDepthLevelsMost : 1,
+  const filter::DepthPyramid pyramid(surface.depth, params.depth_mips ? filter::kDepthLevels : 1,
                                      surface.origin_x, surface.origin_y);
   Plane out =
       HWY_DYNAMIC_DISPATCH(slices_of_plane)(params, surface, grid, pyramid, turns, thickness, depth2, thickness2);

@@ -6,6 +6,9 @@
 
 namespace aftershade::filter {
 
+/// Levels that AO's taps read: the image and five mips (SAO's MAX_MIP_LEVEL, algorithms 4.2).
+inline constexpr int kDepthLevels = 6;
+
 /// Depth at successively halved resolution by rotated-grid subsampling, z_{m+1}(x,y) = z_m(2x + (y&1), 2y + (x&1)),
 /// clamped to the image (SAO, McGuire et al. 2012): no averages, every value is a depth that exists. Level 0 is not
 /// stored: it is the image itself. x and y are absolute coordinates, so the levels of a data window that moves hold the

@@ -39,7 +39,7 @@ const filter::Surface& Work::surface() {
 }
 
 const filter::DepthPyramid& Work::pyramid() {
-  if (!pyramid_) pyramid_.emplace(frame.depth(), ao::kDepthLevels, frame.window.min_x, frame.window.min_y);
+  if (!pyramid_) pyramid_.emplace(frame.depth(), filter::kDepthLevels, frame.window.min_x, frame.window.min_y);
   return *pyramid_;
 }
 

@@ -63,7 +63,7 @@ Inputs::Inputs()
       camera_before(camera_at(find_scene("grass"), 4, 512, 288)),
       surface(surface_of(frame)),
       grid(filter::half_grid(surface)),
-      pyramid(frame.depth(), ao::kDepthLevels, surface.origin_x, surface.origin_y),
+      pyramid(frame.depth(), filter::kDepthLevels, surface.origin_x, surface.origin_y),
       ao(kWidth, kHeight, kAlmostOpen),
       half_ao(ao::scalable_ao({}, surface, pyramid, grid, 0)),
       before(reprojection_of(frame, *camera_before)),

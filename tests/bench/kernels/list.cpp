@@ -36,7 +36,7 @@ void add_ao(std::vector<Kernel>& list, Inputs& in) {
       {"normals from depth", false, [&in] { filter::normals_from_depth(in.surface.depth, in.surface.projection); }});
   list.push_back({"half_grid", false, [&in] { filter::half_grid(in.surface); }});
   list.push_back({"depth pyramid", false, [&in] {
-                    filter::DepthPyramid(in.surface.depth, ao::kDepthLevels, in.surface.origin_x, in.surface.origin_y);
+                    filter::DepthPyramid(in.surface.depth, filter::kDepthLevels, in.surface.origin_x, in.surface.origin_y);
                   }});
 }
 
