@@ -83,9 +83,7 @@ class ByteCounter {
  private:
   std::array<std::array<uint32_t, 256>, 4> tables_{};
 };
-}  // namespace
 
-namespace {
 struct Match {
   size_t from, length, distance;
 };
@@ -102,9 +100,7 @@ Match extend(const uint8_t* bytes, size_t at, size_t distance, size_t first, siz
   while (last < end && bytes[last] == bytes[last - distance]) ++last;
   return {from, last - from, distance};
 }
-}  // namespace
 
-namespace {
 /// A run of one byte or of two in turn around `at`, in [first, end); length 0 when there is none worth while.
 Match find_run(const uint8_t* bytes, size_t at, size_t first, size_t end) {
   const uint32_t value = load_u32(bytes + at);
