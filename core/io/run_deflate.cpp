@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstring>
 
 #include "core/io/deflate_code.h"
+#include "core/simd/scalar.h"
 
 namespace aftershade::io {
 
@@ -17,14 +17,16 @@ namespace {
 constexpr size_t kShortestRun = 6, kShortestMatch = 6;  // shorter ones are seldom cheaper than literals
 constexpr int kHashBits = 13;
 
-/// n log2 n, for whole numbers.
+/// n log2 n, for whole numbers; not libm's, so that files are the same bytes on every processor.
 constexpr size_t kTable = 4096;
 const std::array<float, kTable> kWeights = [] {
   std::array<float, kTable> table{};
-  for (size_t n = 1; n < kTable; ++n) table[n] = static_cast<float>(n) * std::log2(static_cast<float>(n));
+  for (size_t n = 1; n < kTable; ++n) table[n] = static_cast<float>(n) * lanes::log2_of(static_cast<float>(n));
   return table;
 }();
-float weight(uint32_t n) { return n < kTable ? kWeights[n] : static_cast<float>(n) * std::log2(static_cast<float>(n)); }
+float weight(uint32_t n) {
+  return n < kTable ? kWeights[n] : static_cast<float>(n) * lanes::log2_of(static_cast<float>(n));
+}
 
 uint32_t load_u32(const uint8_t* at) {
   uint32_t value;
