@@ -1,17 +1,12 @@
 #pragma once
-#include <gtest/gtest.h>
-
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "core/base/text.h"
 #include "core/math/sampling.h"
-#include "core/simd/targets.h"
 #include "tests/filter/analytic_surface.h"
+#include "tests/support/on_all_targets.h"
 
 /// Kernels on every SIMD target of this machine against the one-lane twin, for the tests of core/filter and core/ao.
 namespace aftershade::tests {
@@ -54,34 +49,14 @@ inline Picture rough_picture(int width, int height, bool orthographic) {
   return out;
 }
 
-/// The same bits; any NaN is like any other.
-inline std::string first_difference(ConstPlaneView a, ConstPlaneView b) {
-  if (a.width != b.width || a.height != b.height) return "sizes differ";
-  for (int y = 0; y < a.height; ++y)
-    for (int x = 0; x < a.width; ++x)
-      if (std::bit_cast<uint32_t>(a(x, y)) != std::bit_cast<uint32_t>(b(x, y)) &&
-          !(std::isnan(a(x, y)) && std::isnan(b(x, y))))
-        return cat("(", x, ", ", y, "): ", a(x, y), " and ", b(x, y));
-  return "";
-}
-
 /// What `make` gives for rough pictures, with fewer pixels than lanes and with many, must not depend on the target.
 inline void expect_same_on_all_targets(const std::string& name,
                                        const std::function<std::vector<Plane>(const Picture&)>& make) {
   for (const bool orthographic : {false, true})
     for (const auto& [width, height] : {std::pair(131, 23), std::pair(37, 9), std::pair(3, 2), std::pair(1, 1)}) {
       const Picture rough = rough_picture(width, height, orthographic);
-      lanes::force_target("scalar");
-      const std::vector<Plane> twin = make(rough);
-      for (const std::string& target : lanes::targets()) {
-        lanes::force_target(target);
-        const std::vector<Plane> tested = make(rough);
-        for (size_t i = 0; i < twin.size(); ++i)
-          EXPECT_EQ(first_difference(twin[i], tested[i]), "")
-              << name << " on " << target << ", plane " << i << ", " << width << " x " << height;
-      }
+      expect_same(cat(name, ", ", width, " x ", height), [&] { return make(rough); });
     }
-  lanes::force_target(lanes::targets().front());
 }
 
 }  // namespace aftershade::tests

@@ -1,18 +1,15 @@
 // The motion blurs with parameters and pixels that presets do not reach, on every SIMD target: the bits of the one-lane
 // twin.
-#include "core/simd/targets.h"
-
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 #include <limits>
 
-#include "core/base/text.h"
 #include "core/motionblur/gather_plus.h"
 #include "core/motionblur/guertin2014.h"
 #include "core/motionblur/mcguire2012.h"
 #include "tests/motionblur/blur_scene.h"
+#include "tests/support/on_all_targets.h"
 
 namespace aftershade::tests {
 namespace {
@@ -20,27 +17,6 @@ namespace {
 using namespace motionblur;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
-
-std::string first_difference(const std::vector<Plane>& twin, const std::vector<Plane>& tested) {
-  for (size_t i = 0; i < twin.size(); ++i)
-    for (int y = 0; y < twin[i].height(); ++y)
-      for (int x = 0; x < twin[i].width(); ++x) {
-        const float a = twin[i](x, y), b = tested[i](x, y);
-        if (std::bit_cast<uint32_t>(a) != std::bit_cast<uint32_t>(b) && !(std::isnan(a) && std::isnan(b)))
-          return cat("plane ", i, " (", x, ", ", y, "): ", a, " and ", b);
-      }
-  return "";
-}
-
-void expect_same(const std::string& name, const std::function<std::vector<Plane>()>& make) {
-  lanes::force_target("scalar");
-  const std::vector<Plane> twin = make();
-  for (const std::string& target : lanes::targets()) {
-    lanes::force_target(target);
-    EXPECT_EQ(first_difference(twin, make()), "") << name << " on " << target;
-  }
-  lanes::force_target(lanes::targets().front());
-}
 
 /// Puts what files may hold in place of some values.
 void spoil(Plane& plane, uint32_t seed) {

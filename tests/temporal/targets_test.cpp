@@ -1,15 +1,13 @@
 // The temporal filters with parameters and pixels that presets do not reach, on every SIMD target: the bits of the
 // one-lane twin.
-#include "core/simd/targets.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/base/text.h"
 #include "core/temporal/accumulation.h"
 #include "core/temporal/selective_temporal.h"
 #include "core/temporal/temporal_blur.h"
+#include "tests/support/on_all_targets.h"
 #include "tests/temporal/temporal_helpers.h"
 #include "tests/temporal/window_helpers.h"
 
@@ -17,27 +15,6 @@ namespace aftershade::tests {
 namespace {
 
 using namespace temporal;
-
-std::string first_difference(const std::vector<Plane>& twin, const std::vector<Plane>& tested) {
-  for (size_t i = 0; i < twin.size(); ++i)
-    for (int y = 0; y < twin[i].height(); ++y)
-      for (int x = 0; x < twin[i].width(); ++x) {
-        const float a = twin[i](x, y), b = tested[i](x, y);
-        if (std::bit_cast<uint32_t>(a) != std::bit_cast<uint32_t>(b) && !(std::isnan(a) && std::isnan(b)))
-          return cat("plane ", i, " (", x, ", ", y, "): ", a, " and ", b);
-      }
-  return twin.size() == tested.size() ? "" : "numbers of planes differ";
-}
-
-void expect_same(const std::string& name, const std::function<std::vector<Plane>()>& make) {
-  lanes::force_target("scalar");
-  const std::vector<Plane> twin = make();
-  for (const std::string& target : lanes::targets()) {
-    lanes::force_target(target);
-    EXPECT_EQ(first_difference(twin, make()), "") << name << " on " << target;
-  }
-  lanes::force_target(lanes::targets().front());
-}
 
 /// Puts what files may hold in place of some values.
 void spoil(Plane& plane, int seed) {
