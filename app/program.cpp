@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cstdio>
+#include <functional>
+#include <memory>
 #include <new>
 
 #include "app/commands.h"
@@ -69,20 +72,21 @@ int parse_and_run(int argc, char** argv) {
   CLI::App app;
   app.set_help_flag();
   app.require_subcommand(1);
-  RenderArgs render_args;
-  InspectArgs inspect_args;
-  SheetArgs sheet_args;
-  PresetsArgs presets_args;
-  const auto add = [&app](const char* name, const auto& table, auto& args) {
+  std::vector<std::pair<CLI::App*, std::function<int()>>> commands;
+  const auto add = [&]<class Args>(const char* name, const std::vector<Option<Args>>& table, int (*run)(const Args&)) {
     CLI::App* command = app.add_subcommand(name);
     command->set_help_flag();
-    bind(*command, table, args);
-    return command;
+    const auto args = std::make_shared<Args>();
+    bind(*command, table, *args);
+    commands.emplace_back(command, [args, run] {
+      if constexpr (std::is_base_of_v<CommonArgs, Args>) apply(*args);
+      return run(*args);
+    });
   };
-  CLI::App* render_command = add("render", render_options(), render_args);
-  CLI::App* inspect_command = add("inspect", inspect_options(), inspect_args);
-  CLI::App* sheet_command = add("sheet", sheet_options(), sheet_args);
-  add("presets", presets_options(), presets_args);
+  add("render", render_options(), render);
+  add("inspect", inspect_options(), inspect);
+  add("presets", presets_options(), presets);
+  add("sheet", sheet_options(), sheet);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -90,10 +94,8 @@ int parse_and_run(int argc, char** argv) {
       throw Error(ErrorCode::usage, cat("there is no command \"", words.front(), "\""), hint_for(words, app));
     throw Error(ErrorCode::usage, error.what(), hint_for(words, app));
   }
-  if (*render_command) return apply(render_args), render(render_args);
-  if (*inspect_command) return apply(inspect_args), inspect(inspect_args);
-  if (*sheet_command) return apply(sheet_args), sheet(sheet_args);
-  return presets(presets_args);
+  const auto typed = [](const auto& command) { return command.first->parsed(); };
+  return std::find_if(commands.begin(), commands.end(), typed)->second();
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ const std::vector<std::vector<std::string>> kFloors{{"core/base"},
                                                     {"core/ao", "core/temporal", "core/motionblur", "core/metrics"},
                                                     {"core/preset"},
                                                     {"core/pipeline", "core/preview"},
+                                                    {"core/report", "core/tune"},
                                                     {"app"}};
 
 bool is_in(std::string_view path, std::string_view folder) {
@@ -70,7 +71,9 @@ struct Library {
 };
 const std::array<Library, 4> kLibraries{
     {{"OpenEXR", {"<Imf", "<OpenEXR/", "<openexr", "<Iex", "<IlmThread"}, {"core/io", "tests"}},
-     {"nlohmann-json", {"<nlohmann/"}, {"core/params", "core/io", "core/preset", "app", "tests"}},
+     {"nlohmann-json",
+      {"<nlohmann/"},
+      {"core/params", "core/io", "core/preset", "core/report", "core/tune", "app", "tests"}},
      {"CLI11", {"<CLI/"}, {"app"}},
      {"OpenImageIO", {"<OpenImageIO/"}, {"core/preview", "tests"}}}};
 
