@@ -38,7 +38,8 @@ struct CommonArgs {
 
 struct RenderArgs : InputArgs, PresetArgs, CommonArgs {
   std::string output;
-  bool ao = false, ao_only = false, diagnostics = false;
+  bool ao = false, ao_only = false;
+  std::vector<std::string> aovs;
   std::string data_window = "keep", compression, existing = "overwrite", progress = "auto";
   bool keep_going = false, dry_run = false, print_config = false, recode = false;
   std::string preroll = kDefaultPreroll, memory, fsync = "on";

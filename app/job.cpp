@@ -108,7 +108,7 @@ void check_recode(const RenderArgs& args) {
                                                 {"--skip", !args.skip.empty()},
                                                 {"--ao", args.ao},
                                                 {"--ao-only", args.ao_only},
-                                                {"--diagnostics", args.diagnostics},
+                                                {"--aov", !args.aovs.empty()},
                                                 {"--data-window", args.data_window != "keep"},
                                                 {"--preroll", args.preroll != kDefaultPreroll},
                                                 {"--print-config", args.print_config},
@@ -140,11 +140,11 @@ std::string ao_channel_for(const io::FileInfo& info) {
   return "AO";
 }
 
-pipeline::Outputs outputs_of(const RenderArgs& args, const io::FileInfo& info) {
+pipeline::Outputs outputs_of(const RenderArgs& args, const preset::Preset& preset, const io::FileInfo& info) {
   pipeline::Outputs outputs;
   if (args.ao || args.ao_only) outputs.ao_channel = ao_channel_for(info);
   outputs.layers = !args.ao_only;
-  outputs.work.diagnostics = args.diagnostics;
+  outputs.work.aovs = pipeline::aovs_from_names(args.aovs, pipeline::aovs_of(preset, outputs.layers));
   outputs.work.grow_data_window = args.data_window == "grow";
   return outputs;
 }
@@ -202,7 +202,7 @@ Job resolve_job(const RenderArgs& args) {
   job.write.only_new_channels = args.ao_only;
   job.write.recode = args.recode;
   job.write.fsync = args.fsync == "on";
-  const pipeline::Outputs outputs = outputs_of(args, job.input.source->info());
+  const pipeline::Outputs outputs = outputs_of(args, job.preset.preset, job.input.source->info());
   if (!args.camera.empty() && job.input.source->has_header_camera(job.input.views.front()))
     log().note("--camera is not used: the frames have camera matrices in their headers");
   for (const std::string& view : job.input.views)

@@ -116,8 +116,9 @@ const std::vector<Option<RenderArgs>>& render_options() {
     t.push_back({"--ao", "", &Args::ao,
                  "also writes the AO as channel AO (aftershade.AO if the file has an AO), half, 1 = open"});
     t.push_back({"--ao-only", "", &Args::ao_only, "writes files with the AO channel alone"});
-    t.push_back({"--diagnostics", "", &Args::diagnostics,
-                 "also writes the stages' intermediate results as channels aftershade.*"});
+    t.push_back({"--aov", "NAMES", &Args::aovs,
+                 "also writes intermediate results, as channels aftershade.NAME: a name, a list with commas, or all "
+                 "that the preset has; may be repeated"});
     t.push_back({"--data-window",
                  "POLICY",
                  &Args::data_window,

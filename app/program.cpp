@@ -44,6 +44,7 @@ std::string hint_for(const std::vector<std::string>& words, const CLI::App& app)
   for (const std::string& word : words)
     if (word.starts_with("--")) {
       const std::string name = word.substr(0, word.find('='));
+      if (name == "--diagnostics") return "it is --aov all now";
       if (std::find(names.begin(), names.end(), name) == names.end()) return did_you_mean(name, names);
     }
   return "";

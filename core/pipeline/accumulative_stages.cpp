@@ -42,6 +42,7 @@ class AccumulatingStage : public Stage {
     (params_.normals == ao::NormalSource::file ? needs.required : needs.optional).insert(Role::normal);
     add_reprojection_needs(needs, offer, params_.reprojection);
     needs.lens = needs.makes_ao = needs.makes_ao_at_pixels = needs.recursive = true;
+    needs.aovs = {Aov::ao_raw, Aov::history_age};
     return needs;
   }
 
@@ -62,7 +63,7 @@ class AccumulatingStage : public Stage {
     refine(work, before);
     work.ao_at_pixels = true;
     camera_before_ = work.frame.camera;
-    if (work.options.diagnostics) work.frame.added["aftershade.count"] = copy_of(history_.weight);
+    if (work.wants(Aov::history_age)) work.give(Aov::history_age, copy_of(history_.weight));
   }
 
  protected:
@@ -102,7 +103,7 @@ class AccumulativeSsao final : public AccumulatingStage<preset::AccumulativeSsao
     history_ = temporal::accumulate(past, {ao, frames, surface.depth, work.frame.window}, frames_kept);
     if (params_.literal_packing) temporal::pack_literally(history_, params_.packed_range_m);
     work.ao = copy_of(history_.ao);
-    if (work.options.diagnostics) work.frame.added["aftershade.ao_raw"] = copy_of(ao);
+    if (work.wants(Aov::ao_raw)) work.give(Aov::ao_raw, copy_of(ao));
   }
 };
 
@@ -134,7 +135,7 @@ class TemporalRefinement final : public AccumulatingStage<preset::TemporalRefine
     });
     const Plane convergence = every([&](int x, int y) { return std::min(history_.weight(x, y) / enough, 1.0F); });
     work.ao = filter::convergence_blur(params_.blur(), history_.ao, convergence, *work.grid, surface);
-    if (work.options.diagnostics) work.frame.added["aftershade.ao_raw"] = copy_of(ao);
+    if (work.wants(Aov::ao_raw)) work.give(Aov::ao_raw, copy_of(ao));
   }
 
   /// In the AO of the frame before, as far as the next samples can tell.

@@ -17,6 +17,7 @@ class AoStage final : public Stage {
     needs.optional = optional_;
     (params_.normals == ao::NormalSource::file ? needs.required : needs.optional).insert(Role::normal);
     needs.lens = needs.makes_ao = true;
+    needs.aovs = {Aov::ao_raw};
     needs.makes_ao_at_pixels = params_.resolution != ao::Resolution::half;
     return needs;
   }
@@ -28,9 +29,9 @@ class AoStage final : public Stage {
     work.grid = full ? filter::full_grid(surface) : filter::half_grid(surface);
     work.ao = Estimate(params_, work);
     work.ao_at_pixels = params_.resolution != ao::Resolution::half;
-    if (work.options.diagnostics)
-      work.frame.added["aftershade.ao_raw"] =
-          work.ao_at_pixels ? copy_of(work.ao) : filter::values_at_pixels(work.ao, *work.grid, surface);
+    if (work.wants(Aov::ao_raw))
+      work.give(Aov::ao_raw,
+                work.ao_at_pixels ? copy_of(work.ao) : filter::values_at_pixels(work.ao, *work.grid, surface));
   }
 
  private:

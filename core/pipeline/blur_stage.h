@@ -53,7 +53,7 @@ class BlurStage : public Stage {
 
   /// How far light gets from its pixel, in whole pixels. Asked for only where it may leave the data window.
   virtual int reach_px(const BlurScene& scene) const = 0;
-  /// Blurs the layers in place; their planes cover scene.window. May add diagnostics and further channels to the frame.
+  /// Blurs the layers in place; their planes cover scene.window. May add AOVs to the frame.
   virtual void blur(Work& work, const BlurScene& scene, std::span<Layer* const> layers) = 0;
 
   /// The motion of a frame that was observed, or of any frame with vectors: reads its roles, its named channels and the

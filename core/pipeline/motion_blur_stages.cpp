@@ -33,8 +33,9 @@ class ScalableBlur final : public BlurStage {
     motionblur::HalfVelocity tiles;
     for (Layer* layer : layers)
       motionblur::scalable_motion_blur(params_, input, channels_of(*layer),
-                                       work.options.diagnostics ? &tiles : nullptr);
-    if (work.options.diagnostics) add_tiles(work.frame, tiles, motionblur::radius_px(params_, velocity, height));
+                                       work.wants(Aov::neighbour_velocity) ? &tiles : nullptr);
+    if (work.wants(Aov::neighbour_velocity))
+      add_tiles(work.frame, tiles, motionblur::radius_px(params_, velocity, height));
   }
 
   /// The neighbourhood's velocity at every pixel.
@@ -42,7 +43,7 @@ class ScalableBlur final : public BlurStage {
     if (tiles.x.empty()) return;
     const motionblur::TileGrid grid(tile, frame.window);
     for (const auto& [name, source] :
-         {std::pair{"aftershade.tile_velocity.x", &tiles.x}, {"aftershade.tile_velocity.y", &tiles.y}}) {
+         {std::pair{"aftershade.neighbour_velocity.x", &tiles.x}, {"aftershade.neighbour_velocity.y", &tiles.y}}) {
       Plane plane(frame.window.width(), frame.window.height());
       for (int y = 0; y < plane.height(); ++y)
         for (int x = 0; x < plane.width(); ++x) plane(x, y) = (*source)(grid.column_of(x), grid.row_of(y));

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/image/role.h"
+#include "core/pipeline/aov.h"
 
 namespace aftershade::pipeline {
 
@@ -27,6 +28,7 @@ struct Needs {
   bool ao_at_pixels = false;          ///< ... which must be at full resolution by then
   bool grid = false;                  ///< ... and looks at the pixels that it was evaluated at
   std::vector<std::string> channels;  ///< works on these channels of the file: Frame::named
+  AovSet aovs;                        ///< intermediate results that it has
   bool makes_ao = false;
   bool makes_ao_at_pixels = false;
   bool layers = false;     ///< changes layers

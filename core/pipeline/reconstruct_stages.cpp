@@ -38,6 +38,7 @@ class Reconstruct final : public BlurStage {
     Needs needs = BlurStage::needs(offer);
     needs.frames_before = std::max(needs.frames_before, params_.neighbours);
     needs.frames_after = std::max(needs.frames_after, params_.neighbours);
+    needs.aovs = {Aov::guessed};
     return needs;
   }
 
@@ -80,8 +81,7 @@ class Reconstruct final : public BlurStage {
       for (size_t i = 0; i < neighbours.size(); ++i) add_neighbour(*neighbours[i], motions[i], *layer, sequence);
       motionblur::Reconstruction result = motionblur::reconstruct(params_, sequence, shutter(scene));
       layer->planes = std::move(result.channels);
-      if (work.options.diagnostics && layer->is_beauty)
-        work.frame.added["aftershade.guessed"] = std::move(result.guessed);
+      if (work.wants(Aov::guessed) && layer->is_beauty) work.give(Aov::guessed, std::move(result.guessed));
     }
   }
 

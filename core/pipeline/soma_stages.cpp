@@ -25,6 +25,7 @@ class TemporalBlur final : public Stage {
     needs.optional = {Role::normal};
     add_reprojection_needs(needs, offer, params_.reprojection);
     needs.lens = needs.recursive = true;
+    needs.aovs = {Aov::history_weight};
     return needs;
   }
 
@@ -47,8 +48,8 @@ class TemporalBlur final : public Stage {
     const filter::SampleGrid& grid = on_grid ? *work.grid : every_pixel;
     put_value(work, params_.channel,
               temporal::temporal_blur(params_, value_of(work, params_.channel), grid, surface, before, history_));
-    if (work.options.diagnostics)
-      work.frame.added["aftershade.history_weight"] = filter::values_at_pixels(history_.weight, grid, surface);
+    if (work.wants(Aov::history_weight))
+      work.give(Aov::history_weight, filter::values_at_pixels(history_.weight, grid, surface));
     depth_before_ = copy_of(surface.depth);
     window_before_ = work.frame.window;
     camera_before_ = work.frame.camera;

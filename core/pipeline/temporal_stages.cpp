@@ -26,6 +26,7 @@ class SelectiveTemporal final : public Stage {
     needs.required = {Role::depth};
     add_reprojection_needs(needs, offer, params_.reprojection);
     needs.lens = needs.ao = needs.ao_at_pixels = needs.grid = needs.recursive = true;
+    needs.aovs = {Aov::mask, Aov::history_age, Aov::ao_filtered};
     return needs;
   }
 
@@ -48,9 +49,9 @@ class SelectiveTemporal final : public Stage {
     work.ao = temporal::selective_temporal_filter(params_, work.ao, surface.depth, {mask, *work.grid}, before,
                                                   work.frame.window, lane.history);
     lane.camera = work.frame.camera;
-    if (!work.options.diagnostics) return;
-    work.frame.added["aftershade.mask"] = filter::values_at_pixels(mask, *work.grid, surface);
-    work.frame.added["aftershade.count"] = copy_of(lane.history.count);
+    if (work.wants(Aov::mask)) work.give(Aov::mask, filter::values_at_pixels(mask, *work.grid, surface));
+    if (work.wants(Aov::history_age)) work.give(Aov::history_age, copy_of(lane.history.count));
+    if (work.wants(Aov::ao_filtered)) work.give(Aov::ao_filtered, copy_of(work.ao));
   }
 
  private:

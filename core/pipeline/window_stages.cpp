@@ -22,6 +22,7 @@ class TemporalWindow final : public Stage {
     if (!offer.position) needs.any_of = {Role::velocity_prev, Role::velocity_next};
     needs.lens = needs.ao = needs.ao_at_pixels = needs.grid = true;
     needs.frames_before = needs.frames_after = params_.frames;
+    needs.aovs = {Aov::ao_filtered, Aov::window_weight};
     return needs;
   }
 
@@ -61,7 +62,8 @@ class TemporalWindow final : public Stage {
     }
     temporal::WindowedAo filtered = temporal::temporal_window(params_, window, centre);
     work.ao = std::move(filtered.ao);
-    if (work.options.diagnostics) work.frame.added["aftershade.window_weight"] = std::move(filtered.weight);
+    if (work.wants(Aov::ao_filtered)) work.give(Aov::ao_filtered, copy_of(work.ao));
+    if (work.wants(Aov::window_weight)) work.give(Aov::window_weight, std::move(filtered.weight));
   }
 
  private:

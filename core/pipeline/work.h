@@ -9,11 +9,12 @@
 #include "core/filter/sample_grid.h"
 #include "core/filter/surface.h"
 #include "core/image/frame.h"
+#include "core/pipeline/aov.h"
 
 namespace aftershade::pipeline {
 
 struct WorkOptions {
-  bool diagnostics = false;       ///< stages add their intermediate results as channels "aftershade.*"
+  AovSet aovs;                    ///< intermediate results that stages add to the files
   bool grow_data_window = false;  ///< blur may leave the data window (as far as the display window)
 };
 
@@ -43,6 +44,12 @@ class Work {
   /// Lays the frame's planes and the AO into `window` (absolute coordinates): new pixels are background (depth +inf,
   /// velocity unknown, named channels NaN, AO 1, everything else 0), pixels outside are dropped.
   void change_window(Window window);
+
+  bool wants(Aov aov) const { return options.aovs.contains(aov); }
+  /// Adds an intermediate result, at every pixel; of a vector its component x (0) or y (1).
+  void give(Aov aov, Plane plane, size_t component = 0) {
+    frame.added[channels_of(aov).at(component)] = std::move(plane);
+  }
 
   void note(std::string text) { notes.push_back(std::move(text)); }
   void warn(std::string text) { warnings.push_back(std::move(text)); }

@@ -91,7 +91,7 @@ Plane converged(const Moment& moment, float radius_m = 1) {
 }
 
 const Plane& ao_of(const MemorySink& sink, int frame) { return sink.planes.at(frame).at("AO"); }
-const Plane& count_of(const MemorySink& sink, int frame) { return sink.planes.at(frame).at("aftershade.count"); }
+const Plane& count_of(const MemorySink& sink, int frame) { return sink.planes.at(frame).at("aftershade.history_age"); }
 
 AccumulativeSsaoParams accumulative(int miss_samples_factor = 1) {
   AccumulativeSsaoParams params;

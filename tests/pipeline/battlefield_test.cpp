@@ -18,7 +18,7 @@ preset::Preset high(const std::vector<std::string>& sets) {
 
 tests::MemorySink run_high(FrameSource& source, std::vector<int> frames, const std::vector<std::string>& sets) {
   std::vector<ViewPipeline> views;
-  views.emplace_back(high(sets), "", kDepthAndCamera, Outputs{"AO", false, {true, false}});
+  views.emplace_back(high(sets), "", kDepthAndCamera, Outputs{"AO", false, {pipeline::AovSet::all(), false}});
   tests::MemorySink sink;
   RunOptions options;
   options.written = options.on_disk = std::move(frames);
@@ -46,7 +46,7 @@ double largest(ConstPlaneView plane) {
 TEST(Battlefield, TheMaskIsThatOfTheHalfResolutionAoUnderTheFullResolutionFilter) {
   tests::SceneSource source = grass(1, 3);
   const tests::MemorySink sink = run_high(source, {1, 2, 3}, {"temporal.distance_m=0.5"});
-  const Plane &mask = sink.planes.at(3).at("aftershade.mask"), &count = sink.planes.at(3).at("aftershade.count");
+  const Plane &mask = sink.planes.at(3).at("aftershade.mask"), &count = sink.planes.at(3).at("aftershade.history_age");
   int stable = 0, between = 0;
   for (int y = 0; y < mask.height(); ++y)
     for (int x = 0; x < mask.width(); ++x) {
@@ -72,7 +72,7 @@ TEST(Battlefield, TheSlidesExperimentsAreSettings) {
   const auto filtered_pixels = [](const std::vector<std::string>& sets) {
     tests::SceneSource source = grass(1, 4);
     const tests::MemorySink sink = run_high(source, {1, 2, 3, 4}, sets);
-    const Plane& count = sink.planes.at(4).at("aftershade.count");
+    const Plane& count = sink.planes.at(4).at("aftershade.history_age");
     int filtered = 0;
     for (int y = 0; y < count.height(); ++y)
       for (int x = 0; x < count.width(); ++x) filtered += count(x, y) > 1 ? 1 : 0;
@@ -105,11 +105,11 @@ TEST(Battlefield, EachAlternatingHistoryIsThatOfItsOwnFrames) {
   const tests::MemorySink both = run_high(source, {1, 2, 3, 4, 5, 6, 7, 8}, {"temporal.afr_lanes=2"});
   const tests::MemorySink one = run_high(second, {1, 2, 3, 4}, {});
   for (const int frame : {1, 2, 3, 4})
-    for (const char* channel : {"AO", "aftershade.count"})
+    for (const char* channel : {"AO", "aftershade.history_age"})
       EXPECT_EQ(differing(both.planes.at(2 * frame).at(channel), one.planes.at(frame).at(channel)), 0) << frame;
-  EXPECT_EQ(largest(both.planes.at(2).at("aftershade.count")), 1) << "frame 2 does not know frame 1";
-  EXPECT_EQ(largest(both.planes.at(3).at("aftershade.count")), 2);
-  EXPECT_GT(largest(both.planes.at(8).at("aftershade.count")), 3.9);
+  EXPECT_EQ(largest(both.planes.at(2).at("aftershade.history_age")), 1) << "frame 2 does not know frame 1";
+  EXPECT_EQ(largest(both.planes.at(3).at("aftershade.history_age")), 2);
+  EXPECT_GT(largest(both.planes.at(8).at("aftershade.history_age")), 3.9);
 }
 
 TEST(Battlefield, AlternatingHistoriesNeedCameras) {

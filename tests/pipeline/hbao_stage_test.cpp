@@ -18,7 +18,7 @@ preset::Preset hbao_and_apply(ao::Resolution resolution) {
 /// What is written of frame 1 of the blades.
 std::map<std::string, Plane> written(const preset::Preset& preset) {
   std::vector<ViewPipeline> views;
-  views.emplace_back(preset, "", kOffer, Outputs{"AO", true, {true, false}});
+  views.emplace_back(preset, "", kOffer, Outputs{"AO", true, {pipeline::AovSet::all(), false}});
   tests::MemorySource source({1}, tests::blade_frame);
   tests::MemorySink sink;
   RunOptions options;

@@ -181,10 +181,10 @@ TEST(Run, CarriedForwardVectorsReplaceMissingBackwardOnes) {
 }
 
 TEST(Run, DiagnosticsAreChannelsOfTheFramesSize) {
-  Outputs outputs{"AO", true, {true, false}};
+  Outputs outputs{"AO", true, {pipeline::AovSet::all(), false}};
   const MemorySink sink = run_blades(preset_of("high-dx11"), {2}, kPrerollAll, outputs);
-  for (const char* name : {"aftershade.ao_raw", "aftershade.mask", "aftershade.count", "aftershade.tile_velocity.x",
-                           "aftershade.tile_velocity.y"}) {
+  for (const char* name : {"aftershade.ao_raw", "aftershade.mask", "aftershade.history_age",
+                           "aftershade.neighbour_velocity.x", "aftershade.neighbour_velocity.y"}) {
     ASSERT_TRUE(sink.planes.at(2).contains(name)) << name;
     EXPECT_EQ(sink.planes.at(2).at(name).width(), 48) << name;
   }
@@ -321,7 +321,7 @@ TEST(Run, DataWindowKeepsAndSaysWhatIsCutOffOrGrows) {
     MemorySource source({1}, cropped_frame);
     std::vector<ViewPipeline> views;
     views.emplace_back(preset, "", Offer{{Role::velocity_prev, Role::velocity_next}, false, false},
-                       Outputs{{}, true, {false, grow}});
+                       Outputs{{}, true, {{}, grow}});
     MemorySink sink;
     RunOptions options;
     options.written = options.on_disk = {1};

@@ -38,7 +38,7 @@ class Targets : public testing::TestWithParam<std::string> {
     SceneSource source(find_scene("crossing"), {61, 35, 1}, 3, 6);
     pipeline::Outputs outputs;
     if (makes_ao(preset)) outputs.ao_channel = "AO";
-    outputs.work.diagnostics = true;
+    outputs.work.aovs = pipeline::AovSet::all();
     return run_over(preset::load_preset(preset).preset, source, frames_from_to(3, 6), outputs);
   }
 };

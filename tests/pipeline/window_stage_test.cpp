@@ -70,7 +70,7 @@ TEST(WindowStage, AWindowOfOneFrameChangesNothing) {
 TEST(WindowStage, DiagnosticsShowHowMuchOfTheWindowWasUsed) {
   MemorySource source({1, 2, 3, 4, 5, 6, 7}, blade_frame);
   Outputs outputs{"AO", false, {}};
-  outputs.work.diagnostics = true;
+  outputs.work.aovs = pipeline::AovSet::all();
   const MemorySink sink = run_window(windowed_preset(), source, {4}, outputs);
   const Plane& weight = sink.planes.at(4).at("aftershade.window_weight");
   double sum = 0;
