@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/metrics/row_sums.h"
+
 namespace aftershade::metrics {
 
 namespace {
@@ -56,8 +58,9 @@ double bilinear(ConstPlaneView plane, Position at) {
 template <class Value>
 Plane plane_of(int width, int height, Value&& value) {
   Plane out(width, height);
-  for (int y = 0; y < height; ++y)
+  for_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) out(x, y) = static_cast<float>(value(x, y));
+  });
   return out;
 }
 
@@ -91,18 +94,13 @@ Plane warped(ConstPlaneView image_before, const Motion& motion) {
                   [&](int x, int y) { return bilinear(image_before, before(motion, x, y)); });
 }
 
+ErrorSums warping_error_sums(ConstPlaneView now, ConstPlaneView image_before, const Motion& motion,
+                             ConstPlaneView mask) {
+  return error_sums(now, warped(image_before, motion), mask);
+}
+
 double warping_error(ConstPlaneView now, ConstPlaneView image_before, const Motion& motion, ConstPlaneView mask) {
-  if (!same_size(now, image_before) || !fits(motion, now) || (!mask.empty() && !same_size(mask, now))) return kNan;
-  double sum = 0;
-  int64_t count = 0;
-  for (int y = 0; y < now.height; ++y)
-    for (int x = 0; x < now.width; ++x) {
-      const double change = static_cast<double>(now(x, y)) - bilinear(image_before, before(motion, x, y));
-      if (!counts(mask, x, y) || !std::isfinite(change)) continue;
-      sum += square(change);
-      ++count;
-    }
-  return std::sqrt(ratio(sum, static_cast<double>(count)));
+  return warping_error_sums(now, image_before, motion, mask).root_mean_square();
 }
 
 Plane flicker_above_truth(ConstPlaneView now, ConstPlaneView image_before, ConstPlaneView true_change,
@@ -202,21 +200,34 @@ double gradient_ratio(ConstPlaneView image, ConstPlaneView truth, ConstPlaneView
   return std::sqrt(ratio(of_image, of_truth));
 }
 
-double tile_seam_ratio(ConstPlaneView image, ConstPlaneView truth, int tile_px, int first_x, int first_y) {
-  if (!same_size(image, truth) || tile_px <= 0) return kNan;
-  double sum[2] = {}, count[2] = {};  // inside tiles, across their borders
-  const auto error = [&](int x, int y) { return static_cast<double>(image(x, y)) - static_cast<double>(truth(x, y)); };
-  const auto add = [&](double step, bool across) {
-    if (!std::isfinite(step)) return;
-    sum[across] += std::abs(step);
-    ++count[across];
-  };
-  for (int y = 0; y < image.height; ++y)
+SeamSums& SeamSums::operator+=(const SeamSums& other) {
+  inside += other.inside;
+  across += other.across;
+  return *this;
+}
+double SeamSums::ratio() const { return metrics::ratio(across.mean(), inside.mean()); }
+
+SeamSums tile_seam_sums(ConstPlaneView image, ConstPlaneView truth, int tile_px, int first_x, int first_y,
+                        ConstPlaneView mask) {
+  if (!same_size(image, truth) || tile_px <= 0 || (!mask.empty() && !same_size(mask, image))) return {};
+  return row_sums<SeamSums>(image.height, [&](int y, SeamSums& sums) {
+    const auto error = [&](int i, int j) {
+      return counts(mask, i, j) ? static_cast<double>(image(i, j)) - static_cast<double>(truth(i, j)) : kNan;
+    };
+    const auto add = [&](double step, bool across) {
+      if (std::isfinite(step)) (across ? sums.across : sums.inside).add(std::abs(step));
+    };
+    const bool first_row = (y - first_y) % tile_px == 0;
     for (int x = 0; x < image.width; ++x) {
-      if (x > 0) add(error(x, y) - error(x - 1, y), (x - first_x) % tile_px == 0);
-      if (y > 0) add(error(x, y) - error(x, y - 1), (y - first_y) % tile_px == 0);
+      const double here = error(x, y);
+      if (x > 0) add(here - error(x - 1, y), (x - first_x) % tile_px == 0);
+      if (y > 0) add(here - error(x, y - 1), first_row);
     }
-  return ratio(ratio(sum[1], count[1]), ratio(sum[0], count[0]));
+  });
+}
+
+double tile_seam_ratio(ConstPlaneView image, ConstPlaneView truth, int tile_px, int first_x, int first_y) {
+  return tile_seam_sums(image, truth, tile_px, first_x, first_y).ratio();
 }
 
 Plane border_mask(int width, int height, int border_px) {

@@ -3,11 +3,11 @@
 #include <span>
 #include <vector>
 
-#include "core/image/plane.h"
+#include "core/metrics/image_metrics.h"
 
 /// Scores of image sequences along the known motion (algorithms 12.2): flicker, noise on trajectories, and what a
 /// filter does to sharpness, tiles and borders. Trails are in trail_metrics.h. Planes of one size, computed in double
-/// in a fixed order on one thread. Masks count above 0.5; an empty mask counts everywhere. Values that are not finite
+/// in a fixed order. Masks count above 0.5; an empty mask counts everywhere. Values that are not finite
 /// never count. With nothing to count, or planes of different sizes, a score is NaN and a plane is NaN everywhere.
 namespace aftershade::metrics {
 
@@ -28,6 +28,7 @@ Plane warped(ConstPlaneView before, const Motion& motion);
 
 /// E_warp = sqrt(mean_M (A_t - W A_{t-1})^2).
 double warping_error(ConstPlaneView now, ConstPlaneView before, const Motion& motion, ConstPlaneView mask = {});
+ErrorSums warping_error_sums(ConstPlaneView now, ConstPlaneView before, const Motion& motion, ConstPlaneView mask = {});
 
 /// Flicker above the truth's own change: |(A_t - W A_{t-1}) - D_t| at every pixel, NaN where there is no history.
 /// Change that the truth shows too does not count. `true_change` is D_t = R_t(p) - R_{t-1}(p) of the surface point p
@@ -58,6 +59,13 @@ double gradient_ratio(ConstPlaneView image, ConstPlaneView truth, ConstPlaneView
 
 /// Mean |step of the error A - R| between neighbours on either side of a tile's border, over that between neighbours
 /// inside tiles: 1 when seams cannot be told. `first_x`, `first_y`: index at which a tile starts.
+struct SeamSums {
+  MeanSum inside, across;
+  SeamSums& operator+=(const SeamSums& other);
+  double ratio() const;  ///< NaN where nothing differs inside tiles
+};
+SeamSums tile_seam_sums(ConstPlaneView image, ConstPlaneView truth, int tile_px, int first_x = 0, int first_y = 0,
+                        ConstPlaneView mask = {});
 double tile_seam_ratio(ConstPlaneView image, ConstPlaneView truth, int tile_px, int first_x = 0, int first_y = 0);
 
 /// 1 within `border_px` of the image's border: a mask for the scores near the border.
