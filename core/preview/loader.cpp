@@ -23,11 +23,6 @@ namespace {
 constexpr char kModuleFile[] = "aftershade-preview.so";
 constexpr char kHint[] = "reinstall aftershade; the module belongs beside the program or in the library folder";
 
-const ModuleTable& loaded_module() {
-  static const ModuleTable& table = open_module(module_candidates());
-  return table;
-}
-
 void check(const Cell& cell) {
   const auto& planes = cell.planes;
   const auto differs = [&](const Plane& plane) {
@@ -79,6 +74,11 @@ const ModuleTable& open_module(std::span<const fs::path> candidates) {
     throw Error(ErrorCode::internal,
                 cat(found->string(), " is not the preview module of aftershade ", AFTERSHADE_VERSION), kHint);
   return *table;
+}
+
+const ModuleTable& loaded_module() {
+  static const ModuleTable& table = open_module(module_candidates());
+  return table;
 }
 
 void shrink(Cell& cell, const SheetStyle& style) {

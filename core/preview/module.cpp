@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <mutex>
 #include <new>
 
 #include "core/base/text.h"
@@ -134,16 +136,15 @@ OIIO::ImageBuf drawn(Sheet& sheet, const Lettering& lettering) {
   return canvas;
 }
 
-std::vector<unsigned char> png_of(const OIIO::ImageBuf& canvas) {
+/// `pixels` are as spec says.
+std::vector<unsigned char> png_of(OIIO::ImageSpec spec, const void* pixels) {
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
   const auto output = OIIO::ImageOutput::create("png");
   if (!output || !output->supports("ioproxy")) fail("write PNG", OIIO::geterror());
-  OIIO::ImageSpec spec = canvas.spec();
   spec.attribute("oiio:ColorSpace", "sRGB");
   output->set_ioproxy(&memory);
-  const bool written =
-      output->open("sheet.png", spec) && output->write_image(canvas.spec().format, canvas.localpixels());
+  const bool written = output->open("picture.png", spec) && output->write_image(spec.format, pixels);
   if (!written || !output->close()) fail("write PNG", output->geterror());
   return bytes;
 }
@@ -153,7 +154,43 @@ void encode_sheet(Sheet& sheet, int threads, EncodedSheet& out) noexcept {
     OIIO::attribute("threads", threads);
     const Lettering lettering = lettering_of(sheet);
     out.note = lettering.note;
-    out.png = png_of(drawn(sheet, lettering));
+    const OIIO::ImageBuf canvas = drawn(sheet, lettering);
+    out.png = png_of(canvas.spec(), canvas.localpixels());
+  });
+}
+
+/// Transforms are made once: ACES takes tens of milliseconds.
+const color::DisplayTransform& transform_of(const color::DisplayOptions& options) {
+  static std::mutex mutex;
+  static std::map<std::pair<std::string, std::string>, color::DisplayTransform> made;
+  const std::lock_guard lock(mutex);
+  const std::pair key(options.ocio, options.view);
+  if (const auto found = made.find(key); found != made.end()) return found->second;
+  return made.emplace(key, color::DisplayTransform(options)).first->second;
+}
+
+void name_of_view(const color::DisplayOptions& options, std::string& name, std::optional<Error>& error) noexcept {
+  guarded(error, [&] { name = transform_of(options).name(); });
+}
+
+void to_display(std::span<const PlaneView, 3> rgb, const color::DisplayOptions& options,
+                std::optional<Error>& error) noexcept {
+  guarded(error, [&] { transform_of(options).apply(rgb); });
+}
+
+bool is_grey(const Picture& picture) {
+  for (size_t i = 0; i + 2 < picture.rgb.size(); i += 3)
+    if (picture.rgb[i] != picture.rgb[i + 1] || picture.rgb[i] != picture.rgb[i + 2]) return false;
+  return true;
+}
+
+void encode_png(const Picture& picture, std::vector<unsigned char>& png, std::optional<Error>& error) noexcept {
+  guarded(error, [&] {
+    const bool grey = is_grey(picture);
+    std::vector<unsigned char> one;
+    for (size_t i = 0; grey && i < picture.rgb.size(); i += 3) one.push_back(picture.rgb[i]);
+    const OIIO::ImageSpec spec(picture.width, picture.height, grey ? 1 : 3, OIIO::TypeDesc::UINT8);
+    png = png_of(spec, grey ? one.data() : picture.rgb.data());
   });
 }
 
@@ -161,5 +198,10 @@ void encode_sheet(Sheet& sheet, int threads, EncodedSheet& out) noexcept {
 
 }  // namespace aftershade::preview
 
-extern "C" __attribute__((visibility("default"))) const aftershade::preview::ModuleTable aftershade_preview_module = {
-    AFTERSHADE_VERSION, aftershade::preview::resize, aftershade::preview::encode_sheet};
+extern "C" __attribute__((visibility("default")))
+const aftershade::preview::ModuleTable aftershade_preview_module = {AFTERSHADE_VERSION,
+                                                                    aftershade::preview::resize,
+                                                                    aftershade::preview::encode_sheet,
+                                                                    aftershade::preview::name_of_view,
+                                                                    aftershade::preview::to_display,
+                                                                    aftershade::preview::encode_png};

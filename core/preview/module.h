@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/color/display.h"
+#include "core/preview/picture.h"
 #include "core/preview/sheet.h"
 
 /// What the program and the module aftershade-preview.so agree on. They are built together, and the version says so,
@@ -28,6 +30,14 @@ struct ModuleTable {
 
   /// Draws the sheet; its pictures have their final size and values in 0..1, and are used up.
   void (*encode_sheet)(Sheet& sheet, int threads, EncodedSheet& out) noexcept;
+
+  /// DisplayTransform's name and its apply(); transforms that were made once are kept. From any thread.
+  void (*view_name)(const color::DisplayOptions& options, std::string& name, std::optional<Error>& error) noexcept;
+  void (*to_display)(std::span<const PlaneView, 3> rgb, const color::DisplayOptions& options,
+                     std::optional<Error>& error) noexcept;
+
+  /// A PNG file of the picture, which is not empty. From any thread.
+  void (*encode_png)(const Picture& picture, std::vector<unsigned char>& png, std::optional<Error>& error) noexcept;
 };
 inline constexpr char kModuleSymbol[] = "aftershade_preview_module";
 
@@ -37,5 +47,8 @@ std::vector<std::filesystem::path> module_candidates();
 /// Opens the first of `candidates` that exists, for the rest of the process. Throws Error(internal) when there is none,
 /// when it cannot be loaded, or when it belongs to another version of the program.
 const ModuleTable& open_module(std::span<const std::filesystem::path> candidates);
+
+/// open_module(module_candidates()), on the first call.
+const ModuleTable& loaded_module();
 
 }  // namespace aftershade::preview

@@ -6,15 +6,13 @@
 #include "core/image/window.h"
 #include "core/metrics/sequence_scores.h"
 #include "core/preset/preset.h"
+#include "core/preview/picture.h"
 
 /// What a comparison of presets found, and how it is written: report.json, report.csv, report.html.
 namespace aftershade::report {
 
-/// A picture as a display shows it: 8 bits, red, green, blue, row by row.
-struct Picture {
-  int width = 0, height = 0;
-  std::vector<unsigned char> rgb;
-};
+/// A picture as a display shows it, made by preview::display_picture().
+using Picture = preview::Picture;
 
 struct StageCost {
   std::string id;  ///< the stage's, or "read" for the frame's decoding
