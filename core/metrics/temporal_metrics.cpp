@@ -94,6 +94,13 @@ Plane warped(ConstPlaneView image_before, const Motion& motion) {
                   [&](int x, int y) { return bilinear(image_before, before(motion, x, y)); });
 }
 
+Plane change_along(ConstPlaneView now, ConstPlaneView image_before, const Motion& motion) {
+  if (!same_size(now, image_before) || !fits(motion, now)) return Plane(now.width, now.height, kNoValue);
+  return plane_of(now.width, now.height, [&](int x, int y) {
+    return static_cast<double>(now(x, y)) - bilinear(image_before, before(motion, x, y));
+  });
+}
+
 ErrorSums warping_error_sums(ConstPlaneView now, ConstPlaneView image_before, const Motion& motion,
                              ConstPlaneView mask) {
   return error_sums(now, warped(image_before, motion), mask);

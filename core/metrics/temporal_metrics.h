@@ -26,6 +26,9 @@ Plane same_surface(const Motion& motion, ConstPlaneView expected_depth, ConstPla
 /// counts lies outside or is not finite.
 Plane warped(ConstPlaneView before, const Motion& motion);
 
+/// A_t - W A_{t-1}.
+Plane change_along(ConstPlaneView now, ConstPlaneView before, const Motion& motion);
+
 /// E_warp = sqrt(mean_M (A_t - W A_{t-1})^2).
 double warping_error(ConstPlaneView now, ConstPlaneView before, const Motion& motion, ConstPlaneView mask = {});
 ErrorSums warping_error_sums(ConstPlaneView now, ConstPlaneView before, const Motion& motion, ConstPlaneView mask = {});
