@@ -34,11 +34,13 @@ struct Candidate {
 };
 
 /// A frame that the page shows: whole, and its worst region pixel by pixel. Element i is of candidate i, then come the
-/// reference's (if there is one) and the input's.
+/// reference's (if the comparison has one) and the input's. A picture that is not there is empty.
 struct ShownFrame {
   int number = 0;
-  Window region;  ///< of the display window's pixels, absolute coordinates
-  std::vector<Picture> whole, detail;
+  double error = 0;  ///< how bad it is beside the others
+  Window region;     ///< of the display window's pixels, absolute coordinates
+  std::vector<Picture> whole;
+  std::vector<Picture> detail;  ///< empty: `whole` shows every pixel, and the region is all of it
 };
 
 struct Comparison {
