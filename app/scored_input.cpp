@@ -1,0 +1,123 @@
+#include "app/scored_input.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "app/log.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/image/placed.h"
+#include "core/temporal/reprojection.h"
+
+namespace aftershade::app {
+
+namespace {
+
+bool names_ao(const InputArgs& args) {
+  return std::any_of(args.channels.begin(), args.channels.end(),
+                     [](const std::string& text) { return text.starts_with("ao="); });
+}
+
+Frame load(const Input& input, const std::string& view, int number, RoleSet roles, bool layers) {
+  auto frame = input.source->load(number, view, roles, layers);
+  if (!frame)
+    throw Error(ErrorCode::no_input, cat("frame ", number, " of ", input.found.pattern.text(), " is missing"));
+  return std::move(*frame);
+}
+
+Plane shown(const Plane& plane, const Frame& frame, float background) {
+  return placed(plane, frame.window, frame.display, background);
+}
+
+}  // namespace
+
+ScoredSide open_scored_side(InputArgs args) {
+  ScoredSide side{open_input(args), "", false, false};
+  side.view = side.input.views.front();
+  if (side.input.views.size() > 1)
+    log().note(cat(args.input, " has several views: view ", side.view, " is scored"), args.input + ": ");
+  for (const std::string name : {kOwnAoChannel, "AO"}) {
+    if (names_ao(args) || !has_channel(side.input.source->info(), side.view, name)) continue;
+    args.channels.push_back("ao=" + name);
+    side.input = open_input(args);
+    break;
+  }
+  side.ao = side.input.source->available(side.view).contains(Role::ao);
+  const auto& layers = side.input.source->layers(side.view);
+  side.color = std::any_of(layers.begin(), layers.end(), [](const auto& layer) { return layer.is_beauty; });
+  return side;
+}
+
+SidePlanes load_side(const ScoredSide& side, int number, bool color, bool ao) {
+  const Frame frame = load(side.input, side.view, number, ao ? RoleSet{Role::ao} : RoleSet{}, color);
+  SidePlanes out;
+  out.path = *side.input.found.sequence.path(number);
+  out.display = frame.display;
+  for (const Layer& layer : frame.layers)
+    for (size_t c = 0; layer.is_beauty && c < 3; ++c) out.color[c] = shown(layer.planes.at(c), frame, 0);
+  if (frame.has(Role::ao)) out.ao = shown(frame.planes(Role::ao)[0], frame, 1);
+  return out;
+}
+
+bool has_geometry(const Input& input, const std::string& view) {
+  const pipeline::Offer offer = offer_of(input, view);
+  return offer.roles.contains(Role::depth) &&
+         (offer.position || offer.roles.contains(Role::velocity_prev) || offer.roles.contains(Role::velocity_next));
+}
+
+GeometryPlanes load_geometry(const Input& input, const std::string& view, int number) {
+  constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+  const RoleSet offered = input.source->available(view);
+  const Frame frame = load(input, view, number, {Role::depth, Role::velocity_prev}, false);
+  GeometryPlanes out{
+      frame.display, shown(frame.depth(), frame, std::numeric_limits<float>::infinity()), {}, {}, frame.camera};
+  if (frame.has(Role::velocity_prev)) {
+    out.velocity_x = shown(frame.planes(Role::velocity_prev)[0], frame, kUnknown);
+    out.velocity_y = shown(frame.planes(Role::velocity_prev)[1], frame, kUnknown);
+  } else if (offered.contains(Role::velocity_next) && input.found.sequence.path(number - 1)) {
+    const Frame before = load(input, view, number - 1, {Role::depth, Role::velocity_next}, false);
+    const auto& next = before.planes(Role::velocity_next);
+    auto carried = temporal::scatter_velocity(next[0], next[1], before.depth(), before.window, frame.window);
+    out.velocity_x = shown(carried.x, frame, kUnknown);
+    out.velocity_y = shown(carried.y, frame, kUnknown);
+  }
+  return out;
+}
+
+metrics::ScoredFrame scored_frame(int number, const SidePlanes& result, const SidePlanes* reference,
+                                  const GeometryPlanes* geometry, const Plane& mask) {
+  const auto check = [&](int width, int height, const std::string& other) {
+    if (width == result.display.width() && height == result.display.height()) return;
+    throw Error(ErrorCode::data,
+                cat("frame ", number, ": ", result.path, " is ", result.display.width(), "x", result.display.height(),
+                    ", ", other, " is ", width, "x", height),
+                "display windows must have the same size");
+  };
+  metrics::ScoredFrame out;
+  out.number = number;
+  out.color = result.rgb();
+  out.ao = result.ao;
+  out.origin_x = result.display.min_x;
+  out.origin_y = result.display.min_y;
+  if (reference) {
+    check(reference->display.width(), reference->display.height(), reference->path);
+    out.true_color = reference->rgb();
+    out.true_ao = reference->ao;
+  }
+  if (geometry) {
+    check(geometry->display.width(), geometry->display.height(), "the frame of depth and vectors");
+    out.depth = geometry->depth;
+    out.velocity_x = geometry->velocity_x;
+    out.velocity_y = geometry->velocity_y;
+    out.camera = geometry->camera;
+    out.origin_x = geometry->display.min_x;
+    out.origin_y = geometry->display.min_y;
+  }
+  if (!mask.empty()) {
+    check(mask.width(), mask.height(), "the mask");
+    out.mask = mask;
+  }
+  return out;
+}
+
+}  // namespace aftershade::app

@@ -1,0 +1,50 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/job.h"
+#include "core/metrics/sequence_scores.h"
+
+/// Sequences that are scored: results, references, and where depth and motion come from.
+namespace aftershade::app {
+
+/// A sequence with colour, AO or both to compare.
+struct ScoredSide {
+  Input input;
+  std::string view;  ///< the one that is scored: --view, else the first
+  bool color = false, ao = false;
+};
+/// Opens it. Its AO is what --channel ao= says, else what `render --ao` and `--ao-only` write, else what its producer's
+/// profile calls AO.
+ScoredSide open_scored_side(InputArgs args);
+
+/// Planes of one frame that cover its display window; those that are not there, or were not asked for, are empty.
+struct SidePlanes {
+  std::string path;
+  Window display;
+  std::array<Plane, 3> color;  ///< 0 where the file has no pixel
+  Plane ao;                    ///< 1 there
+  metrics::Rgb rgb() const { return {color[0], color[1], color[2]}; }
+};
+SidePlanes load_side(const ScoredSide& side, int frame, bool color, bool ao);
+
+/// What moves, and how: depth, velocity_prev and camera of one frame in its display window.
+struct GeometryPlanes {
+  Window display;
+  Plane depth, velocity_x, velocity_y;
+  std::optional<Camera> camera;
+};
+/// Has the sequence depth, and vectors or a camera with a position, so that scores of time can follow its surfaces?
+bool has_geometry(const Input& input, const std::string& view);
+/// Vectors to the next frame alone are carried forward from the frame before, as render does.
+GeometryPlanes load_geometry(const Input& input, const std::string& view, int frame);
+
+/// Frame `number` of a result beside its reference (may be null) on geometry and mask (may be null, empty). Throws
+/// Error(data) naming the frame and both files when their display windows differ in size. What it refers to must live
+/// while it is scored.
+metrics::ScoredFrame scored_frame(int number, const SidePlanes& result, const SidePlanes* reference,
+                                  const GeometryPlanes* geometry, const Plane& mask);
+
+}  // namespace aftershade::app
