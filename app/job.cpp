@@ -39,17 +39,6 @@ void check_name(const std::string& path) {
               "let it end in .exr");
 }
 
-void check_folder(const std::string& path) {
-  fs::path folder = fs::path(path).parent_path();
-  if (folder.empty()) folder = ".";
-  if (!fs::is_directory(folder))
-    throw Error(ErrorCode::cannot_create, cat("the output folder ", folder.string(), " does not exist"),
-                "create it first");
-  if (access(folder.c_str(), W_OK) != 0)
-    throw Error(ErrorCode::cannot_create, cat("the output folder ", folder.string(), " cannot be written to"),
-                "check its permissions");
-}
-
 /// Refuses to write over a frame that is read, under whatever name.
 void check_not_input(const Job& job) {
   std::map<io::FileId, std::string> inputs;
@@ -91,13 +80,6 @@ void apply_existing(const std::string& policy, Job& job) {
   std::erase_if(job.written, [&](int frame) { return is_complete(job.output_path(frame)); });
   if (job.written.size() < before)
     log().note(cat(before - job.written.size(), " frames exist and are complete: skipped"));
-}
-
-int preroll_of(const std::string& text) {
-  if (text == "all") return pipeline::kPrerollAll;
-  const auto frames = parse_integer(text);
-  if (frames && *frames >= 0) return *frames;
-  throw Error(ErrorCode::usage, cat("--preroll ", text, " is not a number of frames"), "a number, or all");
 }
 
 /// Options that say what effects do, beside --recode, which has none.
@@ -167,6 +149,24 @@ bool keeps_files(const std::vector<pipeline::ViewPipeline>& views) {
 }
 
 }  // namespace
+
+void check_folder(const std::string& path) {
+  fs::path folder = fs::path(path).parent_path();
+  if (folder.empty()) folder = ".";
+  if (!fs::is_directory(folder))
+    throw Error(ErrorCode::cannot_create, cat("the output folder ", folder.string(), " does not exist"),
+                "create it first");
+  if (access(folder.c_str(), W_OK) != 0)
+    throw Error(ErrorCode::cannot_create, cat("the output folder ", folder.string(), " cannot be written to"),
+                "check its permissions");
+}
+
+int preroll_of(const std::string& text) {
+  if (text == "all") return pipeline::kPrerollAll;
+  const auto frames = parse_integer(text);
+  if (frames && *frames >= 0) return *frames;
+  throw Error(ErrorCode::usage, cat("--preroll ", text, " is not a number of frames"), "a number, or all");
+}
 
 bool has_channel(const io::FileInfo& info, const std::string& view, const std::string& name) {
   for (size_t part = 0; part < info.parts.size(); ++part)

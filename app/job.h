@@ -44,6 +44,12 @@ pipeline::Offer offer_of(const Input& input, const std::string& view);
 /// The preset, changed by --set, reduced by --only and --skip.
 preset::Resolved resolve_preset(const PresetArgs& args);
 
+/// The number of frames that --preroll means; Error(usage) when it is none.
+int preroll_of(const std::string& text);
+
+/// Throws Error(cannot_create) unless the folder of `path` exists and can be written to.
+void check_folder(const std::string& path);
+
 /// Frames to write and where.
 struct Job {
   Input input;
