@@ -45,6 +45,16 @@ struct RenderArgs : InputArgs, PresetArgs, CommonArgs {
   std::string preroll = kDefaultPreroll, memory, fsync = "on";
 };
 
+/// What score returns when a requirement is not met.
+inline constexpr int kRequirementFailed = 1;
+
+/// `input` is RESULT.
+struct ScoreArgs : InputArgs, CommonArgs {
+  std::string reference, geometry, mask, mask_from, reference_profile;
+  std::vector<std::string> metrics, requirements, reference_channels;
+  bool json = false, csv = false;
+};
+
 struct InspectArgs : InputArgs, PresetArgs, CommonArgs {
   bool json = false;
 };
@@ -54,6 +64,13 @@ struct SheetArgs : CommonArgs {
   int cell_width = 480;
 };
 
+struct TuneArgs : InputArgs, PresetArgs, CommonArgs {
+  std::string reference, stage, output, metric, mask, holdout, cost_table, preroll = "2";
+  std::vector<std::string> parameters;
+  std::optional<double> budget_ms, budget_mb;
+  int evaluations = 150, seed = 1;
+};
+
 struct PresetsArgs {
   std::string action;
   std::vector<std::string> names;
@@ -61,14 +78,18 @@ struct PresetsArgs {
 };
 
 const std::vector<Option<RenderArgs>>& render_options();
+const std::vector<Option<ScoreArgs>>& score_options();
 const std::vector<Option<InspectArgs>>& inspect_options();
 const std::vector<Option<SheetArgs>>& sheet_options();
+const std::vector<Option<TuneArgs>>& tune_options();
 const std::vector<Option<PresetsArgs>>& presets_options();
 
 /// Each runs one command to its end and returns the exit status; failures leave as Error.
 int render(const RenderArgs& args);
+int score(const ScoreArgs& args);
 int inspect(const InspectArgs& args);
 int sheet(const SheetArgs& args);
+int tune(const TuneArgs& args);
 int presets(const PresetsArgs& args);
 
 /// A command as help and manual show it.

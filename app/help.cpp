@@ -45,6 +45,7 @@ std::string wrap(const std::string& text, size_t width, size_t indent) {
 const std::vector<ExitText>& exit_texts() {
   static const std::vector<ExitText> texts = {
       {"0", "all frames written or validly skipped"},
+      {"1", "score: a requirement is not met"},
       {"33", "out of memory"},
       {"64", "wrong use of the command line"},
       {"65", "damaged or inconsistent input"},

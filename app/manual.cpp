@@ -3,6 +3,7 @@
 #include "app/help.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/metrics/sequence_scores.h"
 #include "core/preset/preset.h"
 
 namespace aftershade::app {
@@ -59,6 +60,17 @@ std::string man_methods() {
   return out;
 }
 
+std::string man_metrics() {
+  std::string out;
+  for (const metrics::MetricInfo& metric : metrics::metric_infos()) {
+    const bool zero = metric.better == metrics::Better::zero;
+    const std::string better = zero ? "near 0" : metric.better == metrics::Better::lower ? "low" : "high";
+    out += cat(".TP\n.BR ", roff(metric.name), " \"", metric.unit.empty() ? "" : cat(" (", metric.unit, ")"), "\"\n",
+               roff(metric.doc), "; good is ", better, ".\n");
+  }
+  return out;
+}
+
 std::string man_exit_status() {
   std::string out;
   for (const ExitText& exit : exit_texts()) out += ".TP\n.B " + exit.status + "\n" + roff(exit.meaning) + ".\n";
@@ -84,6 +96,7 @@ std::string markdown_options(const std::string& command) {
 
 std::string generated_part(const std::string& name) {
   if (name == "methods") return man_methods();
+  if (name == "metrics") return man_metrics();
   if (name == "exit status") return man_exit_status();
   const std::vector<std::string> words = split(name, ' ');
   if (words.size() == 2 && words[0] == "options") return man_options(words[1]);

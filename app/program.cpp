@@ -85,6 +85,8 @@ int parse_and_run(int argc, char** argv) {
     });
   };
   add("render", render_options(), render);
+  add("score", score_options(), score);
+  add("tune", tune_options(), tune);
   add("inspect", inspect_options(), inspect);
   add("presets", presets_options(), presets);
   add("sheet", sheet_options(), sheet);

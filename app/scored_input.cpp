@@ -29,6 +29,16 @@ Plane shown(const Plane& plane, const Frame& frame, float background) {
   return placed(plane, frame.window, frame.display, background);
 }
 
+/// What a metric lacks; "" when it can be computed.
+std::string lacking(const metrics::MetricInfo& metric, const Scorable& scorable) {
+  if (metric.reference && !scorable.reference) return "a reference";
+  if (metric.of_ao && !scorable.ao) return "an AO channel on both sides";
+  if (!metric.of_ao && !scorable.color) return "colour channels on both sides";
+  if (metric.moving && !scorable.moving) return "depth, vectors and cameras with a position";
+  if (metric.temporal && !scorable.motion) return "depth, and vectors or cameras with a position";
+  return "";
+}
+
 }  // namespace
 
 ScoredSide open_scored_side(InputArgs args) {
@@ -59,10 +69,32 @@ SidePlanes load_side(const ScoredSide& side, int number, bool color, bool ao) {
   return out;
 }
 
-bool has_geometry(const Input& input, const std::string& view) {
+void add_geometry(const Input& input, const std::string& view, Scorable& scorable) {
   const pipeline::Offer offer = offer_of(input, view);
-  return offer.roles.contains(Role::depth) &&
-         (offer.position || offer.roles.contains(Role::velocity_prev) || offer.roles.contains(Role::velocity_next));
+  if (!offer.roles.contains(Role::depth)) return;
+  const bool vectors = offer.roles.contains(Role::velocity_prev) || offer.roles.contains(Role::velocity_next);
+  scorable.motion = vectors || offer.position;
+  scorable.moving = vectors && offer.position;
+}
+
+std::vector<std::string> metrics_to_score(const std::vector<std::string>& asked, const Scorable& scorable) {
+  metrics::SequenceScorer check(asked);  // unknown names
+  std::vector<std::string> names;
+  for (const metrics::MetricInfo& metric : metrics::metric_infos()) {
+    const std::string missing = lacking(metric, scorable);
+    const bool wanted = std::find(asked.begin(), asked.end(), metric.name) != asked.end();
+    if (wanted && !missing.empty())
+      throw Error(
+          ErrorCode::no_input, cat("metric ", metric.name, " needs ", missing),
+          metric.temporal && missing.starts_with("depth")
+              ? "--geometry takes depth and vectors from another sequence"
+              : "aftershade inspect shows what was recognised; --channel and --reference-channel name channels");
+    if (wanted || (asked.empty() && missing.empty())) names.emplace_back(metric.name);
+  }
+  if (names.empty())
+    throw Error(ErrorCode::no_input, "there is nothing to score: the sequences have neither colour nor AO in common",
+                "--channel and --reference-channel name channels");
+  return names;
 }
 
 GeometryPlanes load_geometry(const Input& input, const std::string& view, int number) {

@@ -36,8 +36,19 @@ struct GeometryPlanes {
   Plane depth, velocity_x, velocity_y;
   std::optional<Camera> camera;
 };
-/// Has the sequence depth, and vectors or a camera with a position, so that scores of time can follow its surfaces?
-bool has_geometry(const Input& input, const std::string& view);
+/// What there is to score.
+struct Scorable {
+  bool color = false, ao = false;  ///< of both sides, or of a result without reference
+  bool reference = false;
+  bool motion = false;  ///< depth, and vectors or cameras with a position: scores of time can follow surfaces
+  bool moving = false;  ///< depth, vectors and such cameras: what moves by itself can be told
+};
+/// Scorable::motion and moving, as the first frame of the view shows.
+void add_geometry(const Input& input, const std::string& view, Scorable& scorable);
+/// The metrics to compute: those asked for, each once, in the order of metric_infos(); all that are possible when none
+/// is. Throws Error(usage) for unknown names, Error(no_input) for one that lacks an input, saying which.
+std::vector<std::string> metrics_to_score(const std::vector<std::string>& asked, const Scorable& scorable);
+
 /// Vectors to the next frame alone are carried forward from the frame before, as render does.
 GeometryPlanes load_geometry(const Input& input, const std::string& view, int frame);
 
