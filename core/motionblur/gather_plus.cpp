@@ -38,7 +38,7 @@ Records records_of(const GatherPlusInput& input, Path path, std::span<Plane* con
 }
 
 void blur_rows(const GatherPlusParams& params, const GatherPlusInput& input, const TileMotions& tiles,
-               std::span<Plane* const> channels) {
+               std::span<Plane* const> channels, Plane* guessed) {
   const Records records = records_of(input, params.path, channels);
   GatherPlusRow row{};
   row.width = input.window.width();
@@ -61,7 +61,12 @@ void blur_rows(const GatherPlusParams& params, const GatherPlusInput& input, con
       GatherPlusRow of_y = row;
       of_y.y = y;
       for (int c = 0; c < row.channels; ++c) of_y.target[c] = channels[4 * group + static_cast<size_t>(c)]->row(y);
-      gather_plus_row(of_y);
+      if (guessed != nullptr && group == 0) {
+        of_y.guessed = guessed->row(y);
+        gather_plus_row<true>(of_y);
+      } else {
+        gather_plus_row<false>(of_y);
+      }
     });
   }
 }
@@ -92,10 +97,12 @@ namespace {
 HWY_EXPORT(blur_rows);
 }
 
-void gather_plus(const GatherPlusParams& params, const GatherPlusInput& input, std::span<Plane* const> channels) {
+void gather_plus(const GatherPlusParams& params, const GatherPlusInput& input, std::span<Plane* const> channels,
+                 Plane* guessed) {
+  if (guessed != nullptr) *guessed = Plane(input.window.width(), input.window.height());
   if (channels.empty()) return;
   const TileMotions tiles = tile_motions(*input.motion, params.path, input.shutter, input.window, params.motions);
-  HWY_DYNAMIC_DISPATCH(blur_rows)(params, input, tiles, channels);
+  HWY_DYNAMIC_DISPATCH(blur_rows)(params, input, tiles, channels, guessed);
 }
 
 }  // namespace aftershade::motionblur

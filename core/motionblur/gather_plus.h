@@ -40,7 +40,9 @@ struct GatherPlusInput {
 
 /// Blurs `channels` together, in place: every plane is as large as the window. Pixels in tiles that no surface reaches
 /// which moves half a pixel or more keep their bits, and so does a pixel with a channel that is not finite (or beyond
-/// 1e30), which is never spread.
-void gather_plus(const GatherPlusParams& params, const GatherPlusInput& input, std::span<Plane* const> channels);
+/// 1e30), which is never spread. `guessed`, if not null, receives the share of each pixel's exposure for which the
+/// farthest of the places looked at stands in, 0 to 1.
+void gather_plus(const GatherPlusParams& params, const GatherPlusInput& input, std::span<Plane* const> channels,
+                 Plane* guessed = nullptr);
 
 }  // namespace aftershade::motionblur

@@ -33,6 +33,7 @@ struct GatherPlusRow {
   int least_taps, most_taps;
   int channels;      ///< 1 to 4
   float* target[4];  ///< row y of each; holds the source's values
+  float* guessed;    ///< row y, where it is asked for
 };
 
 /// Half a pixel is a pixel's own extent, but for rounding.
@@ -128,7 +129,7 @@ struct Ways {
 /// What pixels see at time t: an index, and whether the time counts.
 struct Seen {
   Int pixel;
-  Mask counts;
+  Mask counts, guessed;
 };
 inline Seen seen_at(const GatherPlusRow& row, int x, const Ways& ways, Float t, Mask active) {
   Found f = nothing();
@@ -140,7 +141,8 @@ inline Seen seen_at(const GatherPlusRow& row, int x, const Ways& ways, Float t, 
     if (any(elsewhere)) follow(row, x, t, o, elsewhere, f);
   }
   const Mask covered = f.covered | f.nearly_covered, uncovered = f.any_place & !f.outside;
-  return {select(f.covered, f.nearest, select(f.nearly_covered, f.nearly, f.farthest)), active & (covered | uncovered)};
+  return {select(f.covered, f.nearest, select(f.nearly_covered, f.nearly, f.farthest)), active & (covered | uncovered),
+          active & !covered & uncovered};
 }
 
 /// In (0, 1): shifts the times from pixel to pixel.
@@ -163,7 +165,8 @@ inline void store_blurred(const GatherPlusRow& row, int x, Mask where, const Qua
 }
 
 /// Blurs pixels x to last - 1, at most kLanes, of one tile, which a surface reaches that moves `way_px`.
-inline void gather_plus_pixels(const GatherPlusRow& row, int x, int last, Ways ways, float way_px) {
+template <bool kGuessed>
+void gather_plus_pixels(const GatherPlusRow& row, int x, int last, Ways ways, float way_px) {
   const Int inside = min(iota(x), Int(row.width - 1));
   ways.own = load_path(row.records, Int(row.y * row.record_stride) + inside * Int(kRecordFloats));
   const Mask moves = (iota(x) < Int(last)) & (ways.own.rest.d > 0.0F);
@@ -175,22 +178,25 @@ inline void gather_plus_pixels(const GatherPlusRow& row, int x, int last, Ways w
   const Float jitter = jitter_at(row, x);
   const Quad centre = load_records(row.colours, Int(row.y * row.colour_stride) + inside * Int(kColourFloats));
   Quad sum{0.0F, 0.0F, 0.0F, 0.0F};
-  Float weight = 0.0F;
+  Float weight = 0.0F, guessed = 0.0F;
   for (int i = 0; static_cast<float>(i) < taps; ++i) {
     const Float t = row.opens + (Float(static_cast<float>(i)) + jitter) * step;
     const Seen seen = seen_at(row, x, ways, t, moves);
     const Quad colour = load_records(row.colours, seen.pixel);
     weight += select(seen.counts, Float(1.0F), Float(0.0F));
+    if constexpr (kGuessed) guessed += select(seen.guessed, Float(1.0F), Float(0.0F));
     sum.a += select(seen.counts, colour.a - centre.a, 0.0F);
     sum.b += select(seen.counts, colour.b - centre.b, 0.0F);
     sum.c += select(seen.counts, colour.c - centre.c, 0.0F);
     sum.d += select(seen.counts, colour.d - centre.d, 0.0F);
   }
   store_blurred(row, x, moves & (weight > 0.0F), centre, sum, weight);
+  if constexpr (kGuessed) store(row.guessed + x, select(moves, guessed / max(weight, 1.0F), load(row.guessed + x)));
 }
 
 /// Tile by tile, so that all pixels beside each other have the same motions to look along.
-inline void gather_plus_row(const GatherPlusRow& row) {
+template <bool kGuessed>
+void gather_plus_row(const GatherPlusRow& row) {
   const TileMotions& tiles = *row.tiles;
   const int tile_row = ((row.y + row.origin_y) >> kTileShift) - tiles.first_row;
   for (int column = 0; column < tiles.columns; ++column) {
@@ -202,7 +208,7 @@ inline void gather_plus_row(const GatherPlusRow& row) {
                     &tiles.paths[tile * static_cast<size_t>(tiles.motions * kPathFloats)],
                     static_cast<int>(tiles.counts[tile])};
     for (int x = std::max(left, 0); x < last; x += kLanes)
-      gather_plus_pixels(row, x, last, ways, tiles.longest_px[tile]);
+      gather_plus_pixels<kGuessed>(row, x, last, ways, tiles.longest_px[tile]);
   }
 }
 

@@ -192,5 +192,33 @@ TileMotions tile_motions(const Motion& motion, Path path, Shutter shutter, Windo
   return Tiles(motion, path, shutter, window, motions).all();
 }
 
+VelocityTiles velocity_tiles(const Motion& motion, Path path, Shutter shutter, Window window) {
+  const int width = window.width(), height = window.height();
+  HalfVelocity half{Plane(width, height), Plane(width, height)};
+  const auto half_way = [&](float prev, float next) {
+    return 0.5F * (displacement(path, prev, next, shutter.closes) - displacement(path, prev, next, shutter.opens));
+  };
+  for_rows(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      half.x(x, y) = half_way(motion.prev_x(x, y), motion.next_x(x, y));
+      half.y(x, y) = half_way(motion.prev_y(x, y), motion.next_y(x, y));
+    }
+  });
+  const TileMotions tiles = tile_motions(motion, path, shutter, window, 1);
+  HalfVelocity reaching{Plane(tiles.columns, tiles.rows), Plane(tiles.columns, tiles.rows)};
+  for (int row = 0; row < tiles.rows; ++row)
+    for (int column = 0; column < tiles.columns; ++column) {
+      const auto tile = static_cast<size_t>(row * tiles.columns + column);
+      if (tiles.counts[tile] < 1) continue;
+      const float* p = &tiles.paths[tile * kPathFloats];
+      const auto at = [&](float t, float before, float after, float bend) {
+        return t * (t < 0 ? before : after) + t * t * bend;
+      };
+      reaching.x(column, row) = 0.5F * (at(shutter.closes, p[0], p[2], p[4]) - at(shutter.opens, p[0], p[2], p[4]));
+      reaching.y(column, row) = 0.5F * (at(shutter.closes, p[1], p[3], p[5]) - at(shutter.opens, p[1], p[3], p[5]));
+    }
+  return {kTile_px, tile_max(half, kTile_px, window), std::move(reaching)};
+}
+
 }  // namespace aftershade::motionblur
 #endif

@@ -3,6 +3,7 @@
 
 #include "core/image/window.h"
 #include "core/motionblur/motion.h"
+#include "core/motionblur/tile_max.h"
 
 namespace aftershade::motionblur {
 
@@ -31,5 +32,9 @@ struct TileMotions {
 /// The motions of all surfaces whose path during the exposure touches a tile, thinned to the `motions` (at least 1)
 /// that differ most: the longest first, then each time the one farthest from those that are there.
 TileMotions tile_motions(const Motion& motion, Path path, Shutter shutter, Window window, int motions);
+
+/// For those who look into the blur: half the way of a tile's fastest surface during the exposure, and of the longest
+/// motion that is searched along there.
+VelocityTiles velocity_tiles(const Motion& motion, Path path, Shutter shutter, Window window);
 
 }  // namespace aftershade::motionblur

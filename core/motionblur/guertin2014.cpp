@@ -60,10 +60,15 @@ const params::Table& Guertin2014Params::table() {
   return table;
 }
 
-void guertin2014_blur(const Guertin2014Params& params, const GatherInput& input, std::span<Plane* const> channels) {
+VelocityTiles velocity_tiles(const Guertin2014Params& params, const GatherInput& input) {
   const int radius = radius_px(params, *input.velocity, input.display_height);
-  const HalfVelocity neighbours = dilated(Dilation::directional, *input.velocity,
-                                          tile_max(*input.velocity, radius, input.window), radius, input.window);
+  HalfVelocity own = tile_max(*input.velocity, radius, input.window);
+  HalfVelocity neighbours = dilated(Dilation::directional, *input.velocity, own, radius, input.window);
+  return {radius, std::move(own), std::move(neighbours)};
+}
+
+void guertin2014_blur(const Guertin2014Params& params, const GatherInput& input, std::span<Plane* const> channels) {
+  const auto [radius, own, neighbours] = velocity_tiles(params, input);
   const MovingTiles moving(neighbours, TileGrid(radius, input.window));
   if (!moving.any()) return;
   const bool even = params.split == TapSplit::even;

@@ -4,6 +4,7 @@
 
 #include "core/motionblur/gather.h"
 #include "core/motionblur/motion.h"
+#include "core/motionblur/tile_max.h"
 
 namespace aftershade::motionblur {
 
@@ -54,5 +55,8 @@ struct Guertin2014Params : MotionParams {
 /// Blurs `channels` together, in place (RGBA premultiplied, scene-linear): every plane is as large as `window`. Pixels
 /// whose 3x3 tiles move at most half a pixel keep their bits, and so does a pixel with a channel that is not finite.
 void guertin2014_blur(const Guertin2014Params& params, const GatherInput& input, std::span<Plane* const> channels);
+
+/// The tiles it gathers by, r x r.
+VelocityTiles velocity_tiles(const Guertin2014Params& params, const GatherInput& input);
 
 }  // namespace aftershade::motionblur

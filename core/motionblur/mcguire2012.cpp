@@ -51,10 +51,16 @@ const params::Table& Mcguire2012Params::table() {
   return table;
 }
 
-void mcguire2012_blur(const Mcguire2012Params& params, const GatherInput& input, std::span<Plane* const> channels) {
+VelocityTiles velocity_tiles(const Mcguire2012Params& params, const GatherInput& input) {
   const int radius = radius_px(params, *input.velocity, input.display_height);
+  HalfVelocity own = tile_max(*input.velocity, radius, input.window);
+  HalfVelocity neighbours = neighbour_max(own);
+  return {radius, std::move(own), std::move(neighbours)};
+}
+
+void mcguire2012_blur(const Mcguire2012Params& params, const GatherInput& input, std::span<Plane* const> channels) {
+  const auto [radius, own, neighbours] = velocity_tiles(params, input);
   const TileGrid grid(radius, input.window);
-  const HalfVelocity neighbours = neighbour_max(tile_max(*input.velocity, radius, input.window));
   const MovingTiles tiles(neighbours, grid);
   if (!tiles.any()) return;
   HWY_DYNAMIC_DISPATCH(blur_rows)

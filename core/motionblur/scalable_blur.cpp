@@ -102,27 +102,37 @@ ScalableBlurKernel kernel_of(const ScalableBlurParams& params, Window window) {
           params.centre_weight};
 }
 
+VelocityTiles tiles_of(const ScalableBlurParams& params, const HalfVelocity& velocity, int radius, Window window) {
+  HalfVelocity own = tile_max(velocity, radius, window);
+  HalfVelocity neighbours = dilated(params.dilation, velocity, own, radius, window);
+  return {radius, std::move(own), std::move(neighbours)};
+}
+
 void blur(const ScalableBlurParams& params, const GatherInput& input, const HalfVelocity& velocity, int radius,
-          std::span<Plane* const> channels, HalfVelocity* tiles) {
+          std::span<Plane* const> channels) {
   const TileGrid grid(radius, input.window);
-  const HalfVelocity own = tile_max(velocity, radius, input.window);
-  HalfVelocity neighbours = dilated(params.dilation, velocity, own, radius, input.window);
-  const MovingTiles moving(neighbours, grid);
+  const VelocityTiles tiles = tiles_of(params, velocity, radius, input.window);
+  const MovingTiles moving(tiles.neighbours, grid);
   if (moving.any()) HWY_DYNAMIC_DISPATCH(blur_rows)
   (kernel_of(params, input.window), gather_source(velocity, input.depth, channels, moving),
-   {grid, moving, velocity, widened(neighbours, grid), widened(own, grid)}, channels);
-  if (tiles != nullptr) *tiles = std::move(neighbours);
+   {grid, moving, velocity, widened(tiles.neighbours, grid), widened(tiles.own, grid)}, channels);
 }
 
 }  // namespace
 
-void scalable_motion_blur(const ScalableBlurParams& params, const GatherInput& input, std::span<Plane* const> channels,
-                          HalfVelocity* tiles) {
+void scalable_motion_blur(const ScalableBlurParams& params, const GatherInput& input,
+                          std::span<Plane* const> channels) {
   const int radius = radius_px(params, *input.velocity, input.display_height);
   if (params.velocity_bits == VelocityBits::exact)
-    blur(params, input, *input.velocity, radius, channels, tiles);
+    blur(params, input, *input.velocity, radius, channels);
   else
-    blur(params, input, at_8_bits(*input.velocity, static_cast<float>(radius)), radius, channels, tiles);
+    blur(params, input, at_8_bits(*input.velocity, static_cast<float>(radius)), radius, channels);
+}
+
+VelocityTiles velocity_tiles(const ScalableBlurParams& params, const GatherInput& input) {
+  const int radius = radius_px(params, *input.velocity, input.display_height);
+  if (params.velocity_bits == VelocityBits::exact) return tiles_of(params, *input.velocity, radius, input.window);
+  return tiles_of(params, at_8_bits(*input.velocity, static_cast<float>(radius)), radius, input.window);
 }
 
 }  // namespace aftershade::motionblur

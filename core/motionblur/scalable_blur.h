@@ -59,9 +59,10 @@ int max_radius_px(const ScalableBlurParams& params, int display_height);
 int radius_px(const ScalableBlurParams& params, const HalfVelocity& velocity, int display_height);
 
 /// Blurs `channels` together, in place: every plane is as large as `window`. Pixels whose 3x3 tiles move at most half a
-/// pixel keep their bits, and so does a pixel with a channel that is not finite. `tiles`, if not null, receives the
-/// neighbour-max velocity at tile resolution; a tile is radius_px() large.
-void scalable_motion_blur(const ScalableBlurParams& params, const GatherInput& input, std::span<Plane* const> channels,
-                          HalfVelocity* tiles = nullptr);
+/// pixel keep their bits, and so does a pixel with a channel that is not finite.
+void scalable_motion_blur(const ScalableBlurParams& params, const GatherInput& input, std::span<Plane* const> channels);
+
+/// The tiles it gathers by; they are radius_px() large.
+VelocityTiles velocity_tiles(const ScalableBlurParams& params, const GatherInput& input);
 
 }  // namespace aftershade::motionblur

@@ -4,6 +4,13 @@
 
 namespace aftershade::motionblur {
 
+/// What gathering blurs know of a neighbourhood; one pixel a tile of TileGrid(tile_px, window).
+struct VelocityTiles {
+  int tile_px;
+  HalfVelocity own;         ///< the tile's longest velocity
+  HalfVelocity neighbours;  ///< the longest that counts in the tiles around, or reaches the tile
+};
+
 /// The tiles that a window touches. Tile (i, j) holds the absolute pixels i * tile .. (i + 1) * tile - 1, so that a
 /// pixel stays in the same tile when the data window moves.
 class TileGrid {

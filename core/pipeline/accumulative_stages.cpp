@@ -9,6 +9,7 @@
 #include "core/pipeline/reprojection_of.h"
 #include "core/pipeline/stage.h"
 #include "core/temporal/accumulation.h"
+#include "core/temporal/history_use.h"
 
 namespace aftershade::pipeline {
 
@@ -42,7 +43,7 @@ class AccumulatingStage : public Stage {
     (params_.normals == ao::NormalSource::file ? needs.required : needs.optional).insert(Role::normal);
     add_reprojection_needs(needs, offer, params_.reprojection);
     needs.lens = needs.makes_ao = needs.makes_ao_at_pixels = needs.recursive = true;
-    needs.aovs = {Aov::ao_raw, Aov::history_age};
+    needs.aovs = {Aov::ao_raw, Aov::history_age, Aov::rejected, Aov::ao_filtered};
     return needs;
   }
 
@@ -64,6 +65,7 @@ class AccumulatingStage : public Stage {
     work.ao_at_pixels = true;
     camera_before_ = work.frame.camera;
     if (work.wants(Aov::history_age)) work.give(Aov::history_age, copy_of(history_.weight));
+    if (work.wants(Aov::ao_filtered)) work.give(Aov::ao_filtered, copy_of(history_.ao));
   }
 
  protected:
@@ -71,6 +73,11 @@ class AccumulatingStage : public Stage {
   virtual void refine(Work& work, const temporal::Reprojected& before) = 0;
   bool looks_like_a_cut(Work& work, const temporal::Reprojected& before) const {
     return temporal::share_without_history(work.surface().depth, before, history_.depth, history_.window) > kCut;
+  }
+
+  Plane history_use(Work& work, const temporal::Reprojected& before, ConstPlaneView compared) const {
+    return temporal::history_use(work.surface().depth, before, compared,
+                                 {history_.depth, history_.window, params_.epsilon});
   }
 
   Params params_;
@@ -86,8 +93,9 @@ class AccumulativeSsao final : public AccumulatingStage<preset::AccumulativeSsao
   void refine(Work& work, const temporal::Reprojected& before) override {
     const filter::Surface& surface = work.surface();
     const auto frames_kept = static_cast<float>(params_.accumulated_frames - 1);
-    temporal::Past past =
-        temporal::look_up(history_, before, params_.literal ? surface.depth : before.depth, params_.epsilon);
+    const ConstPlaneView compared = params_.literal ? surface.depth : before.depth;
+    temporal::Past past = temporal::look_up(history_, before, compared, params_.epsilon);
+    if (work.wants(Aov::rejected)) work.give(Aov::rejected, history_use(work, before, compared));
     const auto every = [&](auto&& f) { return each_pixel(surface.depth.width, surface.depth.height, f); };
     if (params_.literal) past.weight = every([&](int x, int y) { return past.weight(x, y) > 0 ? frames_kept : 0.0F; });
     const Plane frames = every(
@@ -111,6 +119,12 @@ class TemporalRefinement final : public AccumulatingStage<preset::TemporalRefine
  public:
   using AccumulatingStage::AccumulatingStage;
 
+  Needs needs(const Offer& offer) const override {
+    Needs needs = AccumulatingStage::needs(offer);
+    needs.aovs.insert({Aov::confidence, Aov::ao_blurred});
+    return needs;
+  }
+
  private:
   void refine(Work& work, const temporal::Reprojected& before) override {
     const filter::Surface& surface = work.surface();
@@ -122,10 +136,14 @@ class TemporalRefinement final : public AccumulatingStage<preset::TemporalRefine
         return static_cast<float>(past.weight(x, y) < enough ? params_.unconverged_samples : params_.samples);
       });
     };
+    Plane trust;
     if (!history_.ao.empty()) {
-      const Plane trust = confidence(work, past, samples_to_take(), before);
+      trust = confidence(work, past, samples_to_take(), before);
       past.weight = every([&](int x, int y) { return past.weight(x, y) * trust(x, y); });
     }
+    if (work.wants(Aov::rejected)) work.give(Aov::rejected, validated_use(work, before, trust));
+    if (work.wants(Aov::confidence))
+      work.give(Aov::confidence, every([&](int x, int y) { return trust.empty() ? 0.0F : trust(x, y); }));
     const Plane count = samples_to_take();
     const Plane ao = ao::sphere_kernel(params_, surface, *work.grid, {0, 0, past.next, count});
     history_ = temporal::accumulate(past, {ao, count, surface.depth, work.frame.window},
@@ -135,7 +153,17 @@ class TemporalRefinement final : public AccumulatingStage<preset::TemporalRefine
     });
     const Plane convergence = every([&](int x, int y) { return std::min(history_.weight(x, y) / enough, 1.0F); });
     work.ao = filter::convergence_blur(params_.blur(), history_.ao, convergence, *work.grid, surface);
+    if (work.wants(Aov::ao_blurred)) work.give(Aov::ao_blurred, copy_of(work.ao));
     if (work.wants(Aov::ao_raw)) work.give(Aov::ao_raw, copy_of(ao));
+  }
+
+  /// Rejected by the validation of samples is what loses more than half of its weight to it.
+  Plane validated_use(Work& work, const temporal::Reprojected& before, const Plane& trust) const {
+    Plane use = history_use(work, before, before.depth);
+    temporal::mark(use, temporal::HistoryUse::changed_surroundings, [&](int x, int y) {
+      return use(x, y) == code_of(temporal::HistoryUse::used) && !(trust(x, y) >= 0.5F);
+    });
+    return use;
   }
 
   /// In the AO of the frame before, as far as the next samples can tell.

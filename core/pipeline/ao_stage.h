@@ -1,7 +1,15 @@
 #pragma once
+#include <type_traits>
+
+#include "core/ao/thickness.h"
 #include "core/pipeline/stage.h"
 
 namespace aftershade::pipeline {
+
+/// A copy of the AO at every pixel, whatever resolution it has by now.
+inline Plane ao_at_pixels(Work& work) {
+  return work.ao_at_pixels ? copy_of(work.ao) : filter::values_at_pixels(work.ao, *work.grid, work.surface());
+}
 
 /// A stage that makes AO of one frame, with no history. `Params` has `resolution` and `normals`; `Estimate` is
 /// Plane(const Params&, Work&) and returns the AO on work.grid; at every pixel for Resolution::dual.
@@ -18,6 +26,7 @@ class AoStage final : public Stage {
     (params_.normals == ao::NormalSource::file ? needs.required : needs.optional).insert(Role::normal);
     needs.lens = needs.makes_ao = true;
     needs.aovs = {Aov::ao_raw};
+    if (kReadsSolids) needs.aovs.insert(Aov::thickness);
     needs.makes_ao_at_pixels = params_.resolution != ao::Resolution::half;
     return needs;
   }
@@ -29,12 +38,14 @@ class AoStage final : public Stage {
     work.grid = full ? filter::full_grid(surface) : filter::half_grid(surface);
     work.ao = Estimate(params_, work);
     work.ao_at_pixels = params_.resolution != ao::Resolution::half;
-    if (work.wants(Aov::ao_raw))
-      work.give(Aov::ao_raw,
-                work.ao_at_pixels ? copy_of(work.ao) : filter::values_at_pixels(work.ao, *work.grid, surface));
+    if (work.wants(Aov::ao_raw)) work.give(Aov::ao_raw, ao_at_pixels(work));
+    if constexpr (kReadsSolids)
+      if (work.wants(Aov::thickness))
+        work.give(Aov::thickness, ao::thickness_map(params_, surface.depth, surface.projection));
   }
 
  private:
+  static constexpr bool kReadsSolids = std::is_base_of_v<ao::DepthGeometry, Params>;
   Params params_;
   RoleSet optional_;
 };

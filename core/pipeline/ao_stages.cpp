@@ -19,6 +19,7 @@ class BilateralBlur final : public Stage {
     needs.required = {Role::depth};
     needs.optional = {Role::normal};
     needs.lens = true;
+    if (params_.channel.empty()) needs.aovs = {Aov::ao_blurred};
     return needs;
   }
 
@@ -29,6 +30,7 @@ class BilateralBlur final : public Stage {
     put_value(work, params_.channel,
               on_grid ? filter::bilateral_blur(params_, value, *work.grid, surface)
                       : filter::bilateral_blur(params_, value, filter::full_grid(surface), surface));
+    if (params_.channel.empty() && work.wants(Aov::ao_blurred)) work.give(Aov::ao_blurred, ao_at_pixels(work));
   }
 
  private:
@@ -44,13 +46,14 @@ class BilateralUpsample final : public Stage {
     needs.required = {Role::depth};
     needs.optional = {Role::normal};
     needs.lens = needs.ao = needs.grid = needs.makes_ao_at_pixels = true;
+    needs.aovs = {Aov::ao_upsampled};
     return needs;
   }
 
   void run(Work& work) override {
-    if (work.ao_at_pixels) return;
-    work.ao = filter::bilateral_upsample(params_, work.ao, *work.grid, work.surface());
+    if (!work.ao_at_pixels) work.ao = filter::bilateral_upsample(params_, work.ao, *work.grid, work.surface());
     work.ao_at_pixels = true;
+    if (work.wants(Aov::ao_upsampled)) work.give(Aov::ao_upsampled, copy_of(work.ao));
   }
 
  private:

@@ -12,6 +12,7 @@ class CrossBilateralBlur final : public Stage {
     Needs needs;
     needs.required = {Role::depth};
     needs.ao = needs.grid = needs.makes_ao_at_pixels = true;
+    needs.aovs = {Aov::ao_blurred};
     return needs;
   }
 
@@ -20,6 +21,7 @@ class CrossBilateralBlur final : public Stage {
     work.ao = filter::cross_bilateral_blur(params_, work.ao, work.ao_at_pixels ? every_pixel : *work.grid,
                                            work.frame.depth(), work.frame.display.height());
     work.ao_at_pixels = true;
+    if (work.wants(Aov::ao_blurred)) work.give(Aov::ao_blurred, copy_of(work.ao));
   }
 
  private:

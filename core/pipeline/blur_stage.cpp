@@ -109,6 +109,23 @@ std::vector<Plane*> channels_of(Layer& layer) {
   return channels;
 }
 
+void give_tiles(Work& work, const motionblur::VelocityTiles& tiles) {
+  const motionblur::TileGrid grid(tiles.tile_px, work.frame.window);
+  const auto at_pixels = [&](const Plane& of_tiles) {
+    Plane out(work.frame.window.width(), work.frame.window.height());
+    for_rows(out.height(), [&](int y) {
+      for (int x = 0; x < out.width(); ++x) out(x, y) = of_tiles(grid.column_of(x), grid.row_of(y));
+    });
+    return out;
+  };
+  for (const auto& [aov, velocity] :
+       {std::pair{Aov::tile_velocity, &tiles.own}, std::pair{Aov::neighbour_velocity, &tiles.neighbours}}) {
+    if (!work.wants(aov)) continue;
+    work.give(aov, at_pixels(velocity->x), 0);
+    work.give(aov, at_pixels(velocity->y), 1);
+  }
+}
+
 Needs BlurStage::needs(const Offer& offer) const {
   Needs needs;
   needs.optional = {Role::depth};

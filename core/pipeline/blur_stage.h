@@ -6,6 +6,7 @@
 
 #include "core/motionblur/half_velocity.h"
 #include "core/motionblur/motion.h"
+#include "core/motionblur/tile_max.h"
 #include "core/pipeline/stage.h"
 
 namespace aftershade::pipeline {
@@ -33,6 +34,14 @@ class BlurScene {
 
 /// The planes of a layer, to be blurred together.
 std::vector<Plane*> channels_of(Layer& layer);
+
+/// The AOVs of blurs that gather by tiles.
+inline const AovSet kTileAovs{Aov::tile_velocity, Aov::neighbour_velocity};
+inline bool wants_tiles(const Work& work) {
+  return work.wants(Aov::tile_velocity) || work.wants(Aov::neighbour_velocity);
+}
+/// Gives those that are wanted, at every pixel of the frame's window.
+void give_tiles(Work& work, const motionblur::VelocityTiles& tiles);
 
 /// What all motion blur stages share: what they need, the motion of a frame, the shutter's length, the data window,
 /// which layers are blurred. A method says how far its blur reaches and how it blurs; one that looks at neighbouring

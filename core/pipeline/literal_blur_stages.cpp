@@ -14,6 +14,12 @@ class LiteralBlur final : public BlurStage {
   using Blur = void (*)(const Params&, const motionblur::GatherInput&, std::span<Plane* const>);
   LiteralBlur(const Params& params, Blur method) : BlurStage(params), params_(params), method_(method) {}
 
+  Needs needs(const Offer& offer) const override {
+    Needs needs = BlurStage::needs(offer);
+    needs.aovs = kTileAovs;
+    return needs;
+  }
+
  private:
   float limit_px(const BlurScene& scene) const {
     return motionblur::limit_px(params_, scene.window, scene.display.height());
@@ -26,9 +32,10 @@ class LiteralBlur final : public BlurStage {
     return static_cast<int>(std::ceil(std::min(longest, limit_px(scene))));
   }
 
-  void blur(Work&, const BlurScene& scene, std::span<Layer* const> layers) override {
+  void blur(Work& work, const BlurScene& scene, std::span<Layer* const> layers) override {
     const motionblur::HalfVelocity velocity = scene.half_velocity(limit_px(scene));
     const motionblur::GatherInput input{scene.depth, &velocity, scene.window, scene.display.height()};
+    if (wants_tiles(work)) give_tiles(work, velocity_tiles(params_, input));
     for (Layer* layer : layers) method_(params_, input, channels_of(*layer));
   }
 

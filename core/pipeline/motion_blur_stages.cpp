@@ -11,6 +11,12 @@ class ScalableBlur final : public BlurStage {
  public:
   explicit ScalableBlur(const motionblur::ScalableBlurParams& params) : BlurStage(params), params_(params) {}
 
+  Needs needs(const Offer& offer) const override {
+    Needs needs = BlurStage::needs(offer);
+    needs.aovs = kTileAovs;
+    return needs;
+  }
+
  private:
   /// Of half-exposure velocities.
   float limit_px(const BlurScene& scene) const {
@@ -28,27 +34,9 @@ class ScalableBlur final : public BlurStage {
 
   void blur(Work& work, const BlurScene& scene, std::span<Layer* const> layers) override {
     const motionblur::HalfVelocity velocity = scene.half_velocity(limit_px(scene));
-    const int height = scene.display.height();
-    const motionblur::GatherInput input{scene.depth, &velocity, scene.window, height};
-    motionblur::HalfVelocity tiles;
-    for (Layer* layer : layers)
-      motionblur::scalable_motion_blur(params_, input, channels_of(*layer),
-                                       work.wants(Aov::neighbour_velocity) ? &tiles : nullptr);
-    if (work.wants(Aov::neighbour_velocity))
-      add_tiles(work.frame, tiles, motionblur::radius_px(params_, velocity, height));
-  }
-
-  /// The neighbourhood's velocity at every pixel.
-  static void add_tiles(Frame& frame, const motionblur::HalfVelocity& tiles, int tile) {
-    if (tiles.x.empty()) return;
-    const motionblur::TileGrid grid(tile, frame.window);
-    for (const auto& [name, source] :
-         {std::pair{"aftershade.neighbour_velocity.x", &tiles.x}, {"aftershade.neighbour_velocity.y", &tiles.y}}) {
-      Plane plane(frame.window.width(), frame.window.height());
-      for (int y = 0; y < plane.height(); ++y)
-        for (int x = 0; x < plane.width(); ++x) plane(x, y) = (*source)(grid.column_of(x), grid.row_of(y));
-      frame.added[name] = std::move(plane);
-    }
+    const motionblur::GatherInput input{scene.depth, &velocity, scene.window, scene.display.height()};
+    if (wants_tiles(work)) give_tiles(work, motionblur::velocity_tiles(params_, input));
+    for (Layer* layer : layers) motionblur::scalable_motion_blur(params_, input, channels_of(*layer));
   }
 
   motionblur::ScalableBlurParams params_;

@@ -5,6 +5,7 @@
 #include "core/pipeline/named_channels.h"
 #include "core/pipeline/reprojection_of.h"
 #include "core/pipeline/stage.h"
+#include "core/temporal/history_use.h"
 
 namespace aftershade::pipeline {
 
@@ -25,7 +26,8 @@ class TemporalBlur final : public Stage {
     needs.optional = {Role::normal};
     add_reprojection_needs(needs, offer, params_.reprojection);
     needs.lens = needs.recursive = true;
-    needs.aovs = {Aov::history_weight};
+    needs.aovs = {Aov::history_weight, Aov::rejected};
+    if (params_.channel.empty()) needs.aovs.insert({Aov::ao_blurred, Aov::ao_filtered});
     return needs;
   }
 
@@ -46,10 +48,24 @@ class TemporalBlur final : public Stage {
     const bool on_grid = params_.channel.empty() && (!work.ao_at_pixels || work.grid->step == 1);
     const filter::SampleGrid every_pixel = on_grid ? filter::SampleGrid{} : filter::full_grid(surface);
     const filter::SampleGrid& grid = on_grid ? *work.grid : every_pixel;
-    put_value(work, params_.channel,
-              temporal::temporal_blur(params_, value_of(work, params_.channel), grid, surface, before, history_));
-    if (work.wants(Aov::history_weight))
-      work.give(Aov::history_weight, filter::values_at_pixels(history_.weight, grid, surface));
+    const auto give = [&](Aov aov, ConstPlaneView on_grid_texels) {
+      if (work.wants(aov)) work.give(aov, filter::values_at_pixels(on_grid_texels, grid, surface));
+    };
+    Plane use, blurred_once;
+    if (work.wants(Aov::rejected)) use = temporal::history_use(params_, grid, surface, before, history_);
+    Plane filtered = temporal::temporal_blur(params_, value_of(work, params_.channel), grid, surface, before, history_,
+                                             work.wants(Aov::ao_blurred) ? &blurred_once : nullptr);
+    give(Aov::history_weight, history_.weight);
+    if (work.wants(Aov::rejected))
+      temporal::mark(use, temporal::HistoryUse::changed_value, [&](int x, int y) {
+        return use(x, y) == code_of(temporal::HistoryUse::used) && !(history_.weight(x, y) > 0);
+      });
+    give(Aov::rejected, use);
+    if (params_.channel.empty()) {
+      give(Aov::ao_blurred, blurred_once);
+      give(Aov::ao_filtered, filtered);
+    }
+    put_value(work, params_.channel, std::move(filtered));
     depth_before_ = copy_of(surface.depth);
     window_before_ = work.frame.window;
     camera_before_ = work.frame.camera;

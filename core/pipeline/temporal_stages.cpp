@@ -3,6 +3,7 @@
 #include "core/base/text.h"
 #include "core/pipeline/reprojection_of.h"
 #include "core/pipeline/stage.h"
+#include "core/temporal/history_use.h"
 
 namespace aftershade::pipeline {
 
@@ -26,7 +27,7 @@ class SelectiveTemporal final : public Stage {
     needs.required = {Role::depth};
     add_reprojection_needs(needs, offer, params_.reprojection);
     needs.lens = needs.ao = needs.ao_at_pixels = needs.grid = needs.recursive = true;
-    needs.aovs = {Aov::mask, Aov::history_age, Aov::ao_filtered};
+    needs.aovs = {Aov::mask, Aov::history_age, Aov::rejected, Aov::ao_filtered};
     return needs;
   }
 
@@ -46,6 +47,7 @@ class SelectiveTemporal final : public Stage {
       work.note(cat("frame ", work.frame.number, " looks like a cut: the AO's history starts anew"));
       lane.history = {};
     }
+    if (work.wants(Aov::rejected)) work.give(Aov::rejected, history_use(work, sources, mask, lane.history));
     work.ao = temporal::selective_temporal_filter(params_, work.ao, surface.depth, {mask, *work.grid}, before,
                                                   work.frame.window, lane.history);
     lane.camera = work.frame.camera;
@@ -64,6 +66,17 @@ class SelectiveTemporal final : public Stage {
   Plane stable_texels(const filter::SampleGrid& grid, const filter::Surface& surface) const {
     if (!params_.selective) return Plane(grid.width(), grid.height(), 0.0F);
     return temporal::dilate_discontinuities(temporal::continuity_mask(params_, grid, surface), params_.dilation_texels);
+  }
+
+  Plane history_use(Work& work, const ReprojectionSources& sources, ConstPlaneView mask,
+                    const temporal::TemporalHistory& before) const {
+    const filter::Surface& surface = work.surface();
+    const temporal::Reprojected past = temporal::reproject(sources.input, params_.reprojection, params_.agreement_px);
+    Plane use = temporal::history_use(surface.depth, past, past.depth,
+                                      {before.depth, before.window, params_.epsilon, params_.literal});
+    const Plane stable = filter::values_at_pixels(mask, *work.grid, surface);
+    temporal::mark(use, temporal::HistoryUse::stable, [&](int x, int y) { return stable(x, y) >= 0.5F; });
+    return use;
   }
 
   temporal::SelectiveTemporalParams params_;

@@ -196,12 +196,15 @@ TexelSurface texel_surface(const filter::SampleGrid& grid, const filter::Surface
 }
 
 Plane temporal_blur(const TemporalBlurParams& params, ConstPlaneView value, const filter::SampleGrid& grid,
-                    const filter::Surface& surface, const Reprojected& reprojected, TemporalBlurHistory& history) {
+                    const filter::Surface& surface, const Reprojected& reprojected, TemporalBlurHistory& history,
+                    Plane* blurred_once) {
   require_same_size(value, grid.width(), grid.height(), "the value");
   require_same_size(reprojected.x, surface.depth.width, surface.depth.height, "the reprojection");
   TexelSurface texels = texel_surface(grid, surface);
   const TemporalBlurStep step{params, grid, surface, texels};
-  TemporalBlurHistory now = blended(step, blurred(step, value), reprojected, history);
+  Plane first = blurred(step, value);
+  TemporalBlurHistory now = blended(step, first, reprojected, history);
+  if (blurred_once != nullptr) *blurred_once = std::move(first);
   now.value = blurred(step, now.value);
   Plane out = params.warm_start ? warmed(step, now) : copy_of(now.value);
   now.texels = std::move(texels);

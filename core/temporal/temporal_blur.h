@@ -62,8 +62,10 @@ struct TemporalBlurHistory {
 
 /// One step of the filter; `value`, of any range, lies on the grid, `reprojected` has all pixels of the surface.
 /// `history` is that of frame i-1 (empty, of another grid step: none; its window may differ) and becomes that of frame
-/// i. Background neither gives nor takes; a value that is not finite counts as 1.
+/// i. Background neither gives nor takes; a value that is not finite counts as 1. `blurred_once`, if not null, receives
+/// B(x_i).
 Plane temporal_blur(const TemporalBlurParams& params, ConstPlaneView value, const filter::SampleGrid& grid,
-                    const filter::Surface& surface, const Reprojected& reprojected, TemporalBlurHistory& history);
+                    const filter::Surface& surface, const Reprojected& reprojected, TemporalBlurHistory& history,
+                    Plane* blurred_once = nullptr);
 
 }  // namespace aftershade::temporal

@@ -338,14 +338,14 @@ TEST(ScalableBlur, TilesAndJitterFollowAbsoluteCoordinates) {
 
 TEST(ScalableBlur, GivesTheTilesItUsed) {
   const BlurScene scene = patchy_scene({-5, 3, 57, 44}, 9);
-  Plane channel = copy_of(scene.channels[0]);
-  Plane* const channels[] = {&channel};
-  motionblur::HalfVelocity tiles;
-  motionblur::scalable_motion_blur(unscaled(9), {scene.depth, &scene.velocity, scene.window, 1}, channels, &tiles);
-  const motionblur::HalfVelocity expected =
-      motionblur::neighbour_max(motionblur::tile_max(scene.velocity, 9, scene.window));
-  EXPECT_TRUE(same_bits(tiles.x, expected.x));
-  EXPECT_TRUE(same_bits(tiles.y, expected.y));
+  const auto tiles = motionblur::velocity_tiles(unscaled(9), {scene.depth, &scene.velocity, scene.window, 1});
+  const motionblur::HalfVelocity own = motionblur::tile_max(scene.velocity, 9, scene.window),
+                                 neighbours = motionblur::neighbour_max(own);
+  EXPECT_EQ(tiles.tile_px, 9);
+  EXPECT_TRUE(same_bits(tiles.own.x, own.x));
+  EXPECT_TRUE(same_bits(tiles.own.y, own.y));
+  EXPECT_TRUE(same_bits(tiles.neighbours.x, neighbours.x));
+  EXPECT_TRUE(same_bits(tiles.neighbours.y, neighbours.y));
 }
 
 TEST(ScalableBlurParams, RadiusScalesWithTheHeightAndIsRoundedUp) {

@@ -78,7 +78,7 @@ MemorySink run_frames(const Params& params, int last, const std::function<Moment
   std::set<int> numbers;
   for (int i = 1; i <= last; ++i) numbers.insert(i);
   tests::MemorySource source(numbers, [&](int number) { return frame_of(number, moment(number)); });
-  return tests::run_over(only(params), source, tests::frames_from_to(1, last), {"AO", true, {true, false}});
+  return tests::run_over(only(params), source, tests::frames_from_to(1, last), {"AO", true, {AovSet::all(), false}});
 }
 
 /// What all points of the sequence together give for one moment.
@@ -328,7 +328,7 @@ TEST(Accumulative, ACutStartsAnewAndSaysSo) {
       if (number == 5) frame.camera->world_to_camera = Mat4().setTranslation(Vec3(0, 0, -50));
       return frame;
     });
-    const auto sink = tests::run_over(preset, source, {1, 2, 3, 4, 5}, {"AO", true, {true, false}});
+    const auto sink = tests::run_over(preset, source, {1, 2, 3, 4, 5}, {"AO", true, {AovSet::all(), false}});
     EXPECT_EQ(count_of(sink, 5)(40, 20), count_of(sink, 1)(40, 20));
   }
 }
