@@ -32,6 +32,11 @@ struct FileData {
   virtual ~FileData() = default;
 };
 
+/// What stages find out about a frame as it was read (core/pipeline/geometry.h), for all presets that run on it.
+struct SharedData {
+  virtual ~SharedData() = default;
+};
+
 /// One view of one frame: what effects read (roles), what they change (layers), what they add (added).
 /// All planes cover `window`; index (0, 0) is absolute pixel (window.min_x, window.min_y). Effects align frames by
 /// absolute coordinates, because windows move.
@@ -54,12 +59,16 @@ struct Frame {
   /// A name that is also in `named` means that channel, in whichever part it lies: its pixels change, nothing else.
   std::map<std::string, Plane> added;
   std::shared_ptr<const FileData> file;  ///< null: the sink reads the file again
+  std::shared_ptr<SharedData> geometry;  ///< null: every preset finds out for itself
 
   bool has(Role role) const { return !roles[static_cast<size_t>(role)].empty(); }
   std::vector<Plane>& planes(Role role) { return roles[static_cast<size_t>(role)]; }
   const std::vector<Plane>& planes(Role role) const { return roles[static_cast<size_t>(role)]; }
   const Plane& depth() const { return planes(Role::depth).at(0); }
 };
+
+/// The same frame once more, for another preset: its planes are shared (Plane::shared).
+Frame shared(const Frame& frame);
 
 /// Where frames come from: files, or memory in tests.
 class FrameSource {

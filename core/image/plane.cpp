@@ -1,6 +1,7 @@
 #include "core/image/plane.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "core/image/plane_memory.h"
 
@@ -8,16 +9,25 @@ namespace aftershade {
 
 namespace {
 constexpr size_t kFloatsPerLine = 16;
-}  // namespace
 
-void Plane::Free::operator()(float* p) const { return_plane_memory(p, bytes); }
+std::shared_ptr<float> storage_of(size_t bytes) {
+  const std::shared_ptr<MemoryAccount> account = current_account();
+  const auto give_back = [bytes, account](float* p) {
+    return_plane_memory(p, bytes);
+    if (account) account->used -= bytes;
+  };
+  std::shared_ptr<float> storage(take_plane_memory(bytes), give_back);
+  if (account) account->add(bytes);
+  return storage;
+}
+}  // namespace
 
 Plane Plane::for_overwrite(int width, int height) {
   Plane plane;
   if (width <= 0 || height <= 0) return plane;
   const size_t stride = (static_cast<size_t>(width) + kPadding + kFloatsPerLine - 1) / kFloatsPerLine * kFloatsPerLine;
   const size_t bytes = stride * static_cast<size_t>(height) * sizeof(float);
-  plane.storage_ = std::unique_ptr<float, Free>(take_plane_memory(bytes), Free{bytes});
+  plane.storage_ = storage_of(bytes);
   plane.view_ = {plane.storage_.get(), width, height, static_cast<std::ptrdiff_t>(stride)};
   for (int y = 0; y < height; ++y) std::fill(plane.row(y) + width, plane.row(y) + stride, 0.0F);
   return plane;
@@ -25,6 +35,11 @@ Plane Plane::for_overwrite(int width, int height) {
 
 Plane::Plane(int width, int height, float fill) : Plane(for_overwrite(width, height)) {
   std::fill_n(storage_.get(), view_.stride * view_.height, fill);
+}
+
+void Plane::make_own() {
+  if (storage_.use_count() > 1) *this = copy_of(view_);
+  std::atomic_thread_fence(std::memory_order_acquire);  // after what others read before they let go
 }
 
 Plane copy_of(ConstPlaneView source) {

@@ -22,7 +22,8 @@ using ConstPlaneView = BasicPlaneView<const float>;
 
 /// Owns a float image. Rows start at 64-byte boundaries and have at least kPadding readable and writable floats behind
 /// the last pixel, so that kernels need no tail loop; the padding is never part of a result. Movable; copy with
-/// copy_of(). Storage is recycled (core/image/plane_memory.h).
+/// copy_of(), or let several planes be the same pixels with shared(): whoever then wants to change some calls
+/// make_own() first. Storage is recycled (core/image/plane_memory.h).
 class Plane {
  public:
   static constexpr int kPadding = 16;
@@ -37,6 +38,16 @@ class Plane {
     return *this;
   }
 
+  /// The same pixels again, which neither plane may change from now on.
+  Plane shared() const {
+    Plane out;
+    out.storage_ = storage_;
+    out.view_ = view_;
+    return out;
+  }
+  /// Nobody else sees these pixels after this: copies them if they are shared.
+  void make_own();
+
   int width() const { return view_.width; }
   int height() const { return view_.height; }
   bool empty() const { return view_.empty(); }
@@ -50,11 +61,7 @@ class Plane {
   operator ConstPlaneView() const { return view_; }
 
  private:
-  struct Free {
-    size_t bytes;
-    void operator()(float* p) const;
-  };
-  std::unique_ptr<float, Free> storage_;
+  std::shared_ptr<float> storage_;
   PlaneView view_;
 };
 

@@ -124,6 +124,11 @@ Pool& pool() {
   return instance;
 }
 
+std::atomic<std::shared_ptr<MemoryAccount>>& account_slot() {
+  static std::atomic<std::shared_ptr<MemoryAccount>> slot;
+  return slot;
+}
+
 }  // namespace
 
 float* take_plane_memory(size_t bytes) {
@@ -136,6 +141,17 @@ void return_plane_memory(float* memory, size_t bytes) noexcept {
   else
     pool().give({memory, rounded(bytes)});
 }
+
+void MemoryAccount::add(size_t bytes) {
+  const size_t now = used += bytes;
+  size_t most = peak;
+  while (most < now && !peak.compare_exchange_weak(most, now)) {
+  }
+}
+
+OnAccount::OnAccount(std::shared_ptr<MemoryAccount> account) : before_(account_slot().exchange(std::move(account))) {}
+OnAccount::~OnAccount() { account_slot() = before_; }
+std::shared_ptr<MemoryAccount> current_account() { return account_slot(); }
 
 PlaneMemory plane_memory() { return pool().state(); }
 void release_plane_memory() noexcept { pool().release_kept(); }

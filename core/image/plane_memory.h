@@ -1,5 +1,7 @@
 #pragma once
+#include <atomic>
 #include <cstddef>
+#include <memory>
 
 /// Where planes' storage comes from. Memory that the system has just handed out costs 0.15 ms of processor time a
 /// megabyte before its first use (a fault a page), and a frame makes dozens of planes of the same few sizes: so what
@@ -22,5 +24,23 @@ struct PlaneMemory {
 PlaneMemory plane_memory();
 /// Gives the kept memory back to the system.
 void release_plane_memory() noexcept;
+
+/// How much memory the planes have that were made on this account.
+struct MemoryAccount {
+  std::atomic<size_t> used = 0, peak = 0;  ///< bytes now, and at most so far
+  void add(size_t bytes);
+};
+/// As long as it lives, planes that anybody makes go on `account`; null: on none. The program has one account at a
+/// time, so the figures say something when nothing else goes on beside.
+class OnAccount {
+ public:
+  explicit OnAccount(std::shared_ptr<MemoryAccount> account);
+  ~OnAccount();
+  OnAccount(const OnAccount&) = delete;
+
+ private:
+  std::shared_ptr<MemoryAccount> before_;
+};
+std::shared_ptr<MemoryAccount> current_account();
 
 }  // namespace aftershade

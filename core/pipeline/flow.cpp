@@ -19,6 +19,12 @@ Plane clamped(Plane ao) {
   return ao;
 }
 
+/// Before their pixels change: another preset may have the same ones.
+void make_own(std::vector<Layer>& layers) {
+  for (Layer& layer : layers)
+    for (Plane& plane : layer.planes) plane.make_own();
+}
+
 }  // namespace
 
 ViewPipeline::~ViewPipeline() = default;
@@ -60,10 +66,14 @@ bool ViewPipeline::attempt(Item& item, size_t blind, const std::function<void()>
 bool ViewPipeline::run_stage(size_t stage, Item& item) {
   Entry& entry = stages_[stage];
   const auto start = std::chrono::steady_clock::now();
+  const double shared_before = item.work.shared().milliseconds;
   const size_t blind = entry.needs.has_window() ? stage + 1 : stage;  // a window has seen the frame already
-  const bool ok = attempt(item, blind, [&] { entry.stage->run(item.work); });
+  const bool ok = attempt(item, blind, [&] {
+    if (entry.needs.layers) make_own(item.frame.layers);
+    entry.stage->run(item.work);
+  });
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-  if (ok) item.times.push_back({entry.id, time.count()});
+  if (ok) item.times.push_back({entry.id, time.count() + item.work.shared().milliseconds - shared_before});
   return ok;
 }
 
@@ -103,7 +113,8 @@ void ViewPipeline::release(size_t stage) {
 void ViewPipeline::finish(Item& item) {
   if (outputs_.ao_channel && item.written && !item.error)
     item.frame.added[*outputs_.ao_channel] = clamped(std::move(item.work.ao));
-  FrameReport report{std::move(item.work.notes), std::move(item.work.warnings), std::move(item.times)};
+  FrameReport report{std::move(item.work.notes), std::move(item.work.warnings), std::move(item.times),
+                     item.work.shared().bytes};
   finished_.push_back({std::move(item.frame), item.written, std::move(report), std::move(item.error)});
 }
 

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,8 @@ struct FrameReport {
     double milliseconds;
   };
   std::vector<std::string> notes, warnings;
-  std::vector<StageTime> times;
+  std::vector<StageTime> times;  ///< with the time it took another preset to make what both use (RunOptions::measure)
+  size_t shared_bytes = 0;       ///< memory of what it uses and other presets may use too
 };
 
 /// A frame that has gone through all the stages it was planned for, or up to the one that failed.
@@ -96,13 +98,25 @@ class ViewPipeline {
   ViewPipeline& operator=(ViewPipeline&&) noexcept;
 };
 
+/// A preset at work: its stages on every view of the sequence (all programs of a run have the same views), and where
+/// its frames go.
+struct Program {
+  std::vector<ViewPipeline>& views;
+  FrameSink& sink;
+};
+
 /// What a run tells its caller, frame by frame.
 struct Progress {
   int number;
   bool written;
-  size_t done, total;                ///< written frames so far, and in all
+  size_t done, total;                ///< frames written so far, and in all; those of all programs count
   double milliseconds;               ///< since this was told of the last frame
   std::vector<FrameReport> reports;  ///< one a view
+  size_t program = 0;
+  double read_milliseconds = 0;  ///< what reading and decoding the frame took, for all programs at once
+  /// RunOptions::measure: the most planes the program had at once so far, in bytes: its own, those of the frames that
+  /// its stages hold back, and what it shares with others.
+  size_t memory_bytes = 0;
 };
 
 struct RunOptions {
@@ -113,6 +127,7 @@ struct RunOptions {
   /// How many frames may be in memory at once, besides those that stages hold back: 1 reads, computes and writes one
   /// after the other, 3 reads the next frame and writes the last one while one is computed. Changes no result.
   size_t frames_in_flight = 3;
+  bool measure = false;  ///< times and memory are to be compared: nothing goes on beside a stage
   std::function<void(const Progress&)> on_progress;
   std::function<void(const Error&)> on_error;  ///< with keep_going, for each failed frame, which the error names
   std::function<void(int)> on_loaded;  ///< a frame was read, or failed to be: before anything else is told of it
@@ -123,6 +138,13 @@ struct RunOptions {
 /// called on any thread, both at the same time, but each for one frame after the other, in order. Stages see the frames
 /// in order, on the caller's thread, where `options`' functions are called too, in an order that depends on the frames
 /// alone. Without keep_going the first failure leaves as it is, once the frames before it are written.
+///
+/// Several programs run side by side: a frame is read once, with all that any of them wants of it, and goes through one
+/// after the other, which shares what does not depend on the preset (Geometry). Every program gets what it would get
+/// alone, to the bit. The program that a frame begins with changes from
+/// frame to frame, so that a machine that is busy for a while treats them alike.
+size_t run(std::span<const Program> programs, FrameSource& source, const RunOptions& options);
+/// One program.
 size_t run(std::vector<ViewPipeline>& views, FrameSource& source, FrameSink& sink, const RunOptions& options);
 
 }  // namespace aftershade::pipeline

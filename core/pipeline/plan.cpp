@@ -57,4 +57,17 @@ std::vector<PlannedFrame> plan(const std::vector<int>& written, const std::vecto
   return frames;
 }
 
+std::vector<Visit> merged(const std::vector<std::vector<PlannedFrame>>& plans) {
+  std::map<int, Visit> visits;
+  for (size_t program = 0; program < plans.size(); ++program)
+    for (const PlannedFrame& planned : plans[program]) {
+      Visit& visit = visits.try_emplace(planned.number, Visit{planned.number, {}}).first->second;
+      visit.programs.resize(plans.size());
+      visit.programs[program] = planned;
+    }
+  std::vector<Visit> out;
+  for (auto& [number, visit] : visits) out.push_back(std::move(visit));
+  return out;
+}
+
 }  // namespace aftershade::pipeline

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace aftershade::pipeline {
@@ -28,5 +29,13 @@ inline constexpr int kPrerollAll = -1;
 /// history adds up to `preroll` consecutive frames before. A gap on disk ends both.
 std::vector<PlannedFrame> plan(const std::vector<int>& written, const std::vector<int>& on_disk, size_t stages,
                                const std::vector<Dependency>& dependencies, int preroll);
+
+/// A frame that a run of several presets visits, and what each of them plans for it; nullopt: it leaves it out.
+struct Visit {
+  int number;
+  std::vector<std::optional<PlannedFrame>> programs;
+};
+/// The visits of all plans, in order.
+std::vector<Visit> merged(const std::vector<std::vector<PlannedFrame>>& plans);
 
 }  // namespace aftershade::pipeline

@@ -1,5 +1,6 @@
 #include "core/pipeline/read_ahead.h"
 
+#include <chrono>
 #include <new>
 
 #include "core/base/error.h"
@@ -14,39 +15,42 @@ RoleSet united(RoleSet a, RoleSet b) {
   return a;
 }
 
-/// What stages see of `frame` as the frame before theirs: its roles `wanted`. Those that only serve this are taken from
-/// the frame; `own` are its own. Copied before any stage, because stages may change the window; a copy costs a tenth of
-/// decoding the frame again.
-Frame as_previous(Frame& frame, RoleSet wanted, RoleSet own) {
-  Frame before;
-  before.number = frame.number;
-  before.view = frame.view;
-  before.part = frame.part;
-  before.window = frame.window;
-  before.display = frame.display;
-  before.pixel_aspect = frame.pixel_aspect;
-  before.camera = frame.camera;
-  before.shutter_angle_deg = frame.shutter_angle_deg;
-  for (const auto& [role, name, count] : kRoles) {
-    if (!wanted.contains(role)) continue;
-    if (own.contains(role))
-      for (const Plane& plane : frame.planes(role)) before.planes(role).push_back(copy_of(plane));
-    else
-      before.planes(role) = std::exchange(frame.planes(role), {});
-  }
+/// What stages see of `frame` as the frame before theirs.
+Frame as_previous(const Frame& frame, RoleSet roles) {
+  Frame before = with_only(shared(frame), roles, false);
+  before.named.clear();
+  before.file.reset();
   return before;
 }
 
 }  // namespace
 
+Frame with_only(Frame frame, RoleSet roles, bool layers) {
+  for (const RoleInfo& role : kRoles)
+    if (!roles.contains(role.role)) frame.planes(role.role).clear();
+  if (!layers) frame.layers.clear();
+  return frame;
+}
+
+ReadAhead::Wish ReadAhead::wish_of(size_t view, const Visit& visit, const Visit* next) const {
+  Wish wish{programs_.front().views[view].view(), {}, {}};
+  for (size_t i = 0; i < programs_.size(); ++i) {
+    const ViewPipeline& stages = programs_[i].views[view];
+    if (const auto& planned = visit.programs[i]) {
+      wish.roles.insert(stages.roles(planned->through));
+      wish.layers = wish.layers || stages.layers(planned->through);
+    }
+    if (next && next->programs[i] && !next->programs[i]->restarts) wish.for_next.insert(stages.previous_roles());
+  }
+  return wish;
+}
+
 void ReadAhead::begin() {
-  const PlannedFrame& planned = planned_[next_++];
-  const bool is_previous = !at_end() && !planned_[next_].restarts;
+  const Visit& visit = visits_[next_++];
   auto reading = std::make_unique<Reading>();
-  reading->number = planned.number;
-  for (const ViewPipeline& view : views_)
-    reading->wishes.push_back({view.view(), view.roles(planned.through),
-                               is_previous ? view.previous_roles() : RoleSet(), view.layers(planned.through)});
+  reading->number = visit.number;
+  for (size_t view = 0; view < programs_.front().views.size(); ++view)
+    reading->wishes.push_back(wish_of(view, visit, at_end() ? nullptr : &visits_[next_]));
   reading->task.emplace([this, &target = *reading] { read(target); });
   reading_ = std::move(reading);
 }
@@ -60,11 +64,12 @@ LoadedFrame ReadAhead::take() {
 void ReadAhead::read(Reading& reading) const {
   if (abandoned_) return;
   LoadedFrame& loaded = reading.loaded;
+  const auto start = std::chrono::steady_clock::now();
   try {
     for (const Wish& wish : reading.wishes) {
       Frame frame = load(reading.number, wish);
       std::optional<Frame> for_next;
-      if (!wish.for_next.empty()) for_next = as_previous(frame, wish.for_next, wish.roles);
+      if (!wish.for_next.empty()) for_next = as_previous(frame, wish.for_next);
       loaded.views.push_back(std::move(frame));
       loaded.for_next.push_back(std::move(for_next));
     }
@@ -74,6 +79,7 @@ void ReadAhead::read(Reading& reading) const {
   } catch (...) {
     loaded.failure = std::current_exception();
   }
+  loaded.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   if (loaded.failure) loaded.views.clear(), loaded.for_next.clear();
 }
 

@@ -3,6 +3,7 @@
 #include <exception>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,22 +12,26 @@
 
 namespace aftershade::pipeline {
 
-/// All views of a planned frame, or what went wrong with reading them.
+/// All views of a visited frame, or what went wrong with reading them.
 struct LoadedFrame {
-  std::vector<Frame> views;
+  std::vector<Frame> views;                    ///< with all that any program wants
   std::vector<std::optional<Frame>> for_next;  ///< what the next frame's stages want of this one, if it follows
   std::exception_ptr failure;
+  double milliseconds = 0;  ///< that reading took
 };
 
-/// Reads planned frames in the background, in order, one at a time. Internal to core/pipeline.
+/// The frame with these roles and, if asked, its layers; everything else is dropped.
+Frame with_only(Frame frame, RoleSet roles, bool layers);
+
+/// Reads the frames that programs visit in the background, in order, one at a time. Internal to core/pipeline.
 class ReadAhead {
  public:
-  ReadAhead(const std::vector<ViewPipeline>& views, FrameSource& source, const std::vector<PlannedFrame>& planned)
-      : views_(views), source_(source), planned_(planned) {}
+  ReadAhead(std::span<const Program> programs, FrameSource& source, const std::vector<Visit>& visits)
+      : programs_(programs), source_(source), visits_(visits) {}
   /// Waits for what is being read; what has not begun never does.
   ~ReadAhead() { abandoned_ = true; }
 
-  bool at_end() const { return next_ == planned_.size(); }
+  bool at_end() const { return next_ == visits_.size(); }
   bool has_begun() const { return reading_ != nullptr; }  ///< a frame was begun and is not taken yet
   void begin();                                           ///< the next frame, if none has begun; not at_end()
   LoadedFrame take();                                     ///< the frame begun, waited for
@@ -35,7 +40,7 @@ class ReadAhead {
   struct Wish {
     std::string view;
     RoleSet roles, for_next;
-    bool layers;
+    bool layers = false;
   };
   struct Reading {
     int number;
@@ -43,12 +48,13 @@ class ReadAhead {
     LoadedFrame loaded;
     std::optional<Background> task;
   };
+  Wish wish_of(size_t view, const Visit& visit, const Visit* next) const;
   void read(Reading& reading) const;
   Frame load(int number, const Wish& wish) const;
 
-  const std::vector<ViewPipeline>& views_;
+  const std::span<const Program> programs_;
   FrameSource& source_;
-  const std::vector<PlannedFrame>& planned_;
+  const std::vector<Visit>& visits_;
   size_t next_ = 0;
   std::atomic<bool> abandoned_ = false;
   std::unique_ptr<Reading> reading_;  // last: its destruction waits for the task

@@ -1,6 +1,10 @@
 #include "core/pipeline/work.h"
 
+#include <chrono>
 #include <limits>
+
+#include "core/image/placed.h"
+#include "core/image/plane_memory.h"
 
 namespace aftershade::pipeline {
 
@@ -13,11 +17,7 @@ float background_of(Role role) {
   return 0;
 }
 
-void relay(Plane& plane, Window from, Window to, float background) {
-  Plane moved(to.width(), to.height(), background);
-  copy_at(plane, moved, from.min_x - to.min_x, from.min_y - to.min_y);
-  plane = std::move(moved);
-}
+void relay(Plane& plane, Window from, Window to, float background) { plane = placed(plane, from, to, background); }
 }  // namespace
 
 void Work::choose_normals(ao::NormalSource source) {
@@ -25,13 +25,37 @@ void Work::choose_normals(ao::NormalSource source) {
   normals_ = source;
 }
 
+Geometry& Work::geometry() {
+  if (!geometry_) geometry_ = std::dynamic_pointer_cast<Geometry>(frame.geometry);
+  if (!geometry_) geometry_ = std::make_shared<Geometry>();
+  return *geometry_;
+}
+
+template <class T, class Make>
+const T& Work::once(MadeOnce<T>& made, Make&& make) {
+  const bool first_use = used_.insert(&made).second;
+  if (!made.value) {
+    const auto account = std::make_shared<MemoryAccount>();
+    const OnAccount on_account(account);
+    const auto start = std::chrono::steady_clock::now();
+    made.value.emplace(make());
+    made.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    made.bytes = account->used;
+  } else if (first_use) {
+    shared_.milliseconds += made.milliseconds;
+  }
+  if (first_use) shared_.bytes += made.bytes;
+  return *made.value;
+}
+
 const filter::Surface& Work::surface() {
   if (surface_) return *surface_;
   const Projection projection = local_projection(frame.camera.value(), frame.window.min_x, frame.window.min_y);
   const bool from_file = normals_ != ao::NormalSource::depth && frame.has(Role::normal);
-  if (!from_file) derived_normals_ = filter::normals_from_depth(frame.depth(), projection);
-  const auto normal = [&](size_t i) {
-    return from_file ? ConstPlaneView(frame.planes(Role::normal)[i]) : ConstPlaneView((*derived_normals_)[i]);
+  const auto derived = [&] { return filter::normals_from_depth(frame.depth(), projection); };
+  const filter::Normals* made = from_file ? nullptr : &once(geometry().normals, derived);
+  const auto normal = [&](size_t i) -> ConstPlaneView {
+    return made ? ConstPlaneView((*made)[i]) : ConstPlaneView(frame.planes(Role::normal)[i]);
   };
   surface_ = filter::Surface{frame.depth(), normal(0),          normal(1),          normal(2),
                              projection,    frame.window.min_x, frame.window.min_y, frame.display.height()};
@@ -39,8 +63,9 @@ const filter::Surface& Work::surface() {
 }
 
 const filter::DepthPyramid& Work::pyramid() {
-  if (!pyramid_) pyramid_.emplace(frame.depth(), filter::kDepthLevels, frame.window.min_x, frame.window.min_y);
-  return *pyramid_;
+  return once(geometry().pyramid, [&] {
+    return filter::DepthPyramid(frame.depth(), filter::kDepthLevels, frame.window.min_x, frame.window.min_y);
+  });
 }
 
 void Work::change_window(Window window) {
@@ -56,8 +81,9 @@ void Work::change_window(Window window) {
   frame.window = window;
   grid.reset();
   surface_.reset();
-  derived_normals_.reset();
-  pyramid_.reset();
+  frame.geometry.reset();
+  geometry_.reset();
+  used_.clear();
 }
 
 }  // namespace aftershade::pipeline

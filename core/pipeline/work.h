@@ -1,15 +1,16 @@
 #pragma once
+#include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "core/ao/scalable_ao.h"
-#include "core/filter/normals.h"
-#include "core/filter/pyramid.h"
 #include "core/filter/sample_grid.h"
 #include "core/filter/surface.h"
 #include "core/image/frame.h"
 #include "core/pipeline/aov.h"
+#include "core/pipeline/geometry.h"
 
 namespace aftershade::pipeline {
 
@@ -41,6 +42,13 @@ class Work {
   /// Depth mips for taps far away.
   const filter::DepthPyramid& pyramid();
 
+  /// Of what this preset has used and may share with others: how long another one took to make it, and the memory.
+  struct Shared {
+    double milliseconds = 0;
+    size_t bytes = 0;
+  };
+  const Shared& shared() const { return shared_; }
+
   /// Lays the frame's planes and the AO into `window` (absolute coordinates): new pixels are background (depth +inf,
   /// velocity unknown, named channels NaN, AO 1, everything else 0), pixels outside are dropped.
   void change_window(Window window);
@@ -56,10 +64,15 @@ class Work {
   std::vector<std::string> notes, warnings;  ///< for the log
 
  private:
+  Geometry& geometry();
+  template <class T, class Make>
+  const T& once(MadeOnce<T>& made, Make&& make);
+
   ao::NormalSource normals_ = ao::NormalSource::automatic;
   std::optional<filter::Surface> surface_;
-  std::optional<filter::Normals> derived_normals_;
-  std::optional<filter::DepthPyramid> pyramid_;
+  std::shared_ptr<Geometry> geometry_;
+  std::set<const void*> used_;  ///< of the geometry
+  Shared shared_;
 };
 
 }  // namespace aftershade::pipeline
