@@ -46,7 +46,9 @@ Pixel nearest_that_shows(const Place& place, ConstPlaneView depth_before) {
   const int x0 = static_cast<int>(place.x - 0.5), y0 = static_cast<int>(place.y - 0.5);
   for (int y = y0; y <= std::min(y0 + 1, depth_before.height - 1); ++y)
     for (int x = x0; x <= std::min(x0 + 1, depth_before.width - 1); ++x) {
-      const double away = std::hypot(x + 0.5 - place.x, y + 0.5 - place.y);
+      const double away_x = std::abs(x + 0.5 - place.x), away_y = std::abs(y + 0.5 - place.y);
+      if (away_x >= 1 || away_y >= 1) continue;  // of no weight
+      const double away = std::hypot(away_x, away_y);
       if (!(std::abs(1 - static_cast<double>(depth_before(x, y)) / place.depth) <= kSameDepth) || !(away < least))
         continue;
       least = away;
