@@ -4,9 +4,9 @@
 
 namespace aftershade {
 
-/// A file of configs/ that the build put into the program.
+/// A file of the project (configs/, the report's page) that the build put into the program.
 struct EmbeddedFile {
-  std::string_view name;  ///< file name without folder and ".json"
+  std::string_view name;  ///< file name without folder and extension
   std::string_view text;
 };
 
