@@ -32,12 +32,11 @@ class PictureView {
   }
   get scale() { return this.zoom ?? this.fitZoom; }
 
-  /** The picture's left upper corner in CSS pixels; a picture smaller than the view is in its middle. */
+  /** The picture's left upper corner in CSS pixels. */
   get origin() {
     return this.size.map((length, i) => {
       const picture = (i === 0 ? this.left.width : this.left.height) * this.scale;
-      if (picture <= length) return Math.round((length - picture) / 2);
-      return Math.round(Math.min(0, Math.max(length - picture, length / 2 - this.centre[i] * picture)));
+      return Math.round(length / 2 - (this.zoom === null ? 0.5 : this.centre[i]) * picture);
     });
   }
 
@@ -99,8 +98,7 @@ class PictureView {
     else this.zoom = Math.min(32, scale);
     const after = this.scale, [width, height] = this.size;
     const part = [(x - ox) / before / this.left.width, (y - oy) / before / this.left.height];
-    this.centre = [part[0] + (width / 2 - x) / after / this.left.width, part[1] + (height / 2 - y) / after / this.left.height];
-    this.draw();
+    this.centreAt(part[0] + (width / 2 - x) / after / this.left.width, part[1] + (height / 2 - y) / after / this.left.height);
   }
   /** To the next power of two. */
   zoomBy(direction, x, y) {
@@ -108,11 +106,17 @@ class PictureView {
     this.zoomTo(2 ** (direction > 0 ? Math.floor(power + 1 + 1e-9) : Math.ceil(power - 1 - 1e-9)), x, y);
   }
 
+  /** Moves a point of the picture to the view's middle; some of the picture stays in sight. */
+  centreAt(x, y) {
+    this.centre = [x, y].map((part) => Math.max(0, Math.min(1, part)));
+    this.draw();
+  }
+
   panBy(dx, dy) {
     if (!this.left) return;
     const [x, y] = this.origin, [width, height] = this.size;
-    this.centre = [(width / 2 - x - dx) / this.scale / this.left.width, (height / 2 - y - dy) / this.scale / this.left.height];
-    this.draw();
+    this.zoom = this.scale;
+    this.centreAt((width / 2 - x - dx) / this.scale / this.left.width, (height / 2 - y - dy) / this.scale / this.left.height);
   }
 
   wipeTo(part) {
