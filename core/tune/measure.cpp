@@ -1,0 +1,119 @@
+#include "core/tune/measure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel/rows.h"
+
+namespace aftershade::tune {
+
+namespace {
+
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  return values[values.size() / 2];
+}
+
+Measured summary(const std::vector<Cost>& costs) {
+  std::vector<double> ms, bytes, deviations;
+  for (const Cost& cost : costs) ms.push_back(cost.milliseconds), bytes.push_back(cost.bytes);
+  const double middle = median(ms);
+  for (const double value : ms) deviations.push_back(std::abs(value - middle));
+  return {{middle, median(bytes)}, median(deviations)};
+}
+
+template <class Preset>
+auto& params_of(Preset& preset, const std::string& stage) {
+  return std::ranges::find_if(preset.stages, [&](const auto& s) { return s.id == stage; })->params;
+}
+
+/// Where the axis is measured; with the base's own value, in rising order.
+std::vector<double> values_to_measure(const Axis& axis, double base) {
+  std::vector<double> values{base};
+  for (const double position : {0.0, 1 / 3.0, 2 / 3.0, 1.0}) values.push_back(value_at(axis, position));
+  std::ranges::sort(values);
+  const auto repeated = std::ranges::unique(values);
+  values.erase(repeated.begin(), repeated.end());
+  return values;
+}
+
+}  // namespace
+
+preset::Preset with_values(const preset::Preset& preset, const std::string& stage, const Axes& axes,
+                           const std::vector<double>& values) {
+  preset::Preset out = preset;
+  preset::StageParams& params = params_of(out, stage);
+  for (size_t i = 0; i < axes.size(); ++i) {
+    const params::Record& record = params::find(preset::table_of(params), axes[i].key, stage);
+    const params::Json value = axes[i].integer ? params::Json(std::lround(values[i])) : params::Json(values[i]);
+    std::visit([&](auto& p) { record.put(&p, value); }, params);
+  }
+  return out;
+}
+
+std::vector<double> values_of(const preset::Preset& preset, const std::string& stage, const Axes& axes) {
+  const preset::StageParams& params = params_of(preset, stage);
+  std::vector<double> values;
+  for (const Axis& axis : axes) {
+    const params::Record& record = params::find(preset::table_of(params), axis.key, stage);
+    values.push_back(record.get(preset::values_of(params)).get<double>());
+  }
+  return values;
+}
+
+std::optional<std::vector<Measured>> measure_in_turn(const Trial& trial, const std::vector<preset::Preset>& presets,
+                                                     const std::string& stage, int frame,
+                                                     const std::function<void(int)>& on_round) {
+  std::vector<std::vector<Cost>> costs(presets.size());
+  for (int round = 0; round < kRounds; ++round) {
+    for (size_t i = 0; i < presets.size(); ++i) {
+      const size_t turn = (i + static_cast<size_t>(round)) % presets.size();
+      costs[turn].push_back(trial.cost(presets[turn], stage, frame));
+      if (trial.setup().should_stop && trial.setup().should_stop()) return std::nullopt;
+    }
+    on_round(round + 1);
+  }
+  std::vector<Measured> out;
+  for (const auto& measured : costs) out.push_back(summary(measured));
+  return out;
+}
+
+CostTable blank_table(const Subject& subject, const Frame& frame) {
+  const preset::StageParams& params = params_of(subject.preset, subject.stage);
+  CostTable table;
+  table.preset = subject.preset.name;
+  table.stage = subject.stage;
+  table.method = preset::method_of(params);
+  table.base = params::write(preset::table_of(params), preset::values_of(params));
+  table.width = frame.window.width(), table.height = frame.window.height();
+  table.threads = thread_count();
+  table.rounds = kRounds;
+  return table;
+}
+
+std::optional<CostTable> measure_table(const Trial& trial, const Subject& subject, CostTable table,
+                                       const std::function<void(int)>& on_round) {
+  const std::vector<double> base = values_of(subject.preset, subject.stage, subject.axes);
+  std::vector<preset::Preset> presets{subject.preset};
+  for (size_t i = 0; i < subject.axes.size(); ++i) {
+    CostCurve& curve = table.curves.emplace_back();
+    curve.key = subject.axes[i].key;
+    curve.values = values_to_measure(subject.axes[i], base[i]);
+    std::vector<double> values = base;
+    for (const double value : curve.values) {
+      values[i] = value;
+      if (value != base[i]) presets.push_back(with_values(subject.preset, subject.stage, subject.axes, values));
+    }
+  }
+  const auto measured = measure_in_turn(trial, presets, subject.stage, subject.frame, on_round);
+  if (!measured) return std::nullopt;
+  auto next = measured->begin();
+  table.cost = *next++;
+  for (size_t i = 0; i < table.curves.size(); ++i)
+    for (const double value : table.curves[i].values)
+      table.curves[i].costs.push_back(value == base[i] ? table.cost : *next++);
+  judge_noise(table);
+  return table;
+}
+
+}  // namespace aftershade::tune
