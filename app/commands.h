@@ -71,6 +71,13 @@ struct TuneArgs : InputArgs, PresetArgs, CommonArgs {
   int evaluations = 150, seed = 1;
 };
 
+struct CompareArgs : InputArgs, CommonArgs {
+  std::vector<std::string> presets, sets, only, skip, references, metrics;
+  std::string output, mask, mask_from, preroll = kDefaultPreroll, page_budget = "24M", ocio, view_transform;
+  std::string progress = "auto";
+  bool write_frames = false, no_cost = false, no_report = false;
+};
+
 struct PresetsArgs {
   std::string action;
   std::vector<std::string> names;
@@ -78,6 +85,7 @@ struct PresetsArgs {
 };
 
 const std::vector<Option<RenderArgs>>& render_options();
+const std::vector<Option<CompareArgs>>& compare_options();
 const std::vector<Option<ScoreArgs>>& score_options();
 const std::vector<Option<InspectArgs>>& inspect_options();
 const std::vector<Option<SheetArgs>>& sheet_options();
@@ -86,6 +94,7 @@ const std::vector<Option<PresetsArgs>>& presets_options();
 
 /// Each runs one command to its end and returns the exit status; failures leave as Error.
 int render(const RenderArgs& args);
+int compare(const CompareArgs& args);
 int score(const ScoreArgs& args);
 int inspect(const InspectArgs& args);
 int sheet(const SheetArgs& args);

@@ -39,24 +39,6 @@ void check_name(const std::string& path) {
               "let it end in .exr");
 }
 
-/// Refuses to write over a frame that is read, under whatever name.
-void check_not_input(const Job& job) {
-  std::map<io::FileId, std::string> inputs;
-  const auto add = [&](const io::Sequence& sequence) {
-    for (const auto& entry : sequence.entries())
-      if (const auto id = io::file_id(entry.path)) inputs.emplace(*id, entry.path);
-  };
-  add(job.input.found.sequence);
-  for (const io::Sequence& sibling : job.input.siblings) add(sibling);
-  for (const int frame : job.written) {
-    const auto id = io::file_id(job.output_path(frame));
-    const auto input = id ? inputs.find(*id) : inputs.end();
-    if (input != inputs.end())
-      throw Error(ErrorCode::usage, cat("the output ", job.output_path(frame), " is the input frame ", input->second),
-                  "write to another folder or another name");
-  }
-}
-
 bool is_complete(const std::string& path) {
   try {
     io::ExrReader reader(path);
@@ -168,6 +150,24 @@ int preroll_of(const std::string& text) {
   throw Error(ErrorCode::usage, cat("--preroll ", text, " is not a number of frames"), "a number, or all");
 }
 
+void check_not_input(const Input& input, const std::vector<int>& written,
+                     const std::function<std::string(int)>& output_path) {
+  std::map<io::FileId, std::string> inputs;
+  const auto add = [&](const io::Sequence& sequence) {
+    for (const auto& entry : sequence.entries())
+      if (const auto id = io::file_id(entry.path)) inputs.emplace(*id, entry.path);
+  };
+  add(input.found.sequence);
+  for (const io::Sequence& sibling : input.siblings) add(sibling);
+  for (const int frame : written) {
+    const auto id = io::file_id(output_path(frame));
+    const auto source = id ? inputs.find(*id) : inputs.end();
+    if (source != inputs.end())
+      throw Error(ErrorCode::usage, cat("the output ", output_path(frame), " is the input frame ", source->second),
+                  "write to another folder or another name");
+  }
+}
+
 bool has_channel(const io::FileInfo& info, const std::string& view, const std::string& name) {
   for (size_t part = 0; part < info.parts.size(); ++part)
     for (const io::ChannelInfo& channel : info.parts[part].channels)
@@ -192,7 +192,7 @@ Job resolve_job(const RenderArgs& args) {
     check_name(job.output_path(frame));
     check_folder(job.output_path(frame));
   }
-  check_not_input(job);
+  check_not_input(job.input, job.written, job.output_path);
   apply_existing(args.existing, job);
   if (!args.compression.empty()) {
     io::check_compression(args.compression);

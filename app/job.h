@@ -47,6 +47,10 @@ preset::Resolved resolve_preset(const PresetArgs& args);
 /// The number of frames that --preroll means; Error(usage) when it is none.
 int preroll_of(const std::string& text);
 
+/// Refuses (Error(usage)) to write over a frame that is read, under whatever name.
+void check_not_input(const Input& input, const std::vector<int>& written,
+                     const std::function<std::string(int)>& output_path);
+
 /// Throws Error(cannot_create) unless the folder of `path` exists and can be written to.
 void check_folder(const std::string& path);
 

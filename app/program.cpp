@@ -85,6 +85,7 @@ int parse_and_run(int argc, char** argv) {
     });
   };
   add("render", render_options(), render);
+  add("compare", compare_options(), compare);
   add("score", score_options(), score);
   add("tune", tune_options(), tune);
   add("inspect", inspect_options(), inspect);

@@ -26,6 +26,7 @@ Frame load(const Input& input, const std::string& view, int number, RoleSet role
 }
 
 Plane shown(const Plane& plane, const Frame& frame, float background) {
+  if (frame.window == frame.display) return plane.shared();
   return placed(plane, frame.window, frame.display, background);
 }
 
@@ -58,15 +59,18 @@ ScoredSide open_scored_side(InputArgs args) {
   return side;
 }
 
-SidePlanes load_side(const ScoredSide& side, int number, bool color, bool ao) {
-  const Frame frame = load(side.input, side.view, number, ao ? RoleSet{Role::ao} : RoleSet{}, color);
-  SidePlanes out;
-  out.path = *side.input.found.sequence.path(number);
-  out.display = frame.display;
+SidePlanes side_planes(const Frame& frame, const Plane& ao, const std::string& path) {
+  SidePlanes out{path, frame.display, {}, {}};
   for (const Layer& layer : frame.layers)
     for (size_t c = 0; layer.is_beauty && c < 3; ++c) out.color[c] = shown(layer.planes.at(c), frame, 0);
-  if (frame.has(Role::ao)) out.ao = shown(frame.planes(Role::ao)[0], frame, 1);
+  if (!ao.empty()) out.ao = shown(ao, frame, 1);
   return out;
+}
+
+SidePlanes load_side(const ScoredSide& side, int number, bool color, bool ao) {
+  const Frame frame = load(side.input, side.view, number, ao ? RoleSet{Role::ao} : RoleSet{}, color);
+  return side_planes(frame, frame.has(Role::ao) ? frame.planes(Role::ao)[0].shared() : Plane(),
+                     *side.input.found.sequence.path(number));
 }
 
 void add_geometry(const Input& input, const std::string& view, Scorable& scorable) {
@@ -97,23 +101,30 @@ std::vector<std::string> metrics_to_score(const std::vector<std::string>& asked,
   return names;
 }
 
-GeometryPlanes load_geometry(const Input& input, const std::string& view, int number) {
+GeometryPlanes geometry_of(const Frame& frame, const Frame* before) {
   constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-  const RoleSet offered = input.source->available(view);
-  const Frame frame = load(input, view, number, {Role::depth, Role::velocity_prev}, false);
   GeometryPlanes out{
       frame.display, shown(frame.depth(), frame, std::numeric_limits<float>::infinity()), {}, {}, frame.camera};
   if (frame.has(Role::velocity_prev)) {
     out.velocity_x = shown(frame.planes(Role::velocity_prev)[0], frame, kUnknown);
     out.velocity_y = shown(frame.planes(Role::velocity_prev)[1], frame, kUnknown);
-  } else if (offered.contains(Role::velocity_next) && input.found.sequence.path(number - 1)) {
-    const Frame before = load(input, view, number - 1, {Role::depth, Role::velocity_next}, false);
-    const auto& next = before.planes(Role::velocity_next);
-    auto carried = temporal::scatter_velocity(next[0], next[1], before.depth(), before.window, frame.window);
+  } else if (before && before->has(Role::velocity_next)) {
+    const auto& next = before->planes(Role::velocity_next);
+    auto carried = temporal::scatter_velocity(next[0], next[1], before->depth(), before->window, frame.window);
     out.velocity_x = shown(carried.x, frame, kUnknown);
     out.velocity_y = shown(carried.y, frame, kUnknown);
   }
   return out;
+}
+
+GeometryPlanes load_geometry(const Input& input, const std::string& view, int number) {
+  const RoleSet offered = input.source->available(view);
+  const Frame frame = load(input, view, number, {Role::depth, Role::velocity_prev}, false);
+  std::optional<Frame> before;
+  if (!offered.contains(Role::velocity_prev) && offered.contains(Role::velocity_next) &&
+      input.found.sequence.path(number - 1))
+    before = load(input, view, number - 1, {Role::depth, Role::velocity_next}, false);
+  return geometry_of(frame, before ? &*before : nullptr);
 }
 
 metrics::ScoredFrame scored_frame(int number, const SidePlanes& result, const SidePlanes* reference,

@@ -28,6 +28,8 @@ struct SidePlanes {
   Plane ao;                    ///< 1 there
   metrics::Rgb rgb() const { return {color[0], color[1], color[2]}; }
 };
+/// The beauty of a frame, and this AO in its window (may be empty). Planes are shared with the frame where they can be.
+SidePlanes side_planes(const Frame& frame, const Plane& ao, const std::string& path);
 SidePlanes load_side(const ScoredSide& side, int frame, bool color, bool ao);
 
 /// What moves, and how: depth, velocity_prev and camera of one frame in its display window.
@@ -49,7 +51,8 @@ void add_geometry(const Input& input, const std::string& view, Scorable& scorabl
 /// is. Throws Error(usage) for unknown names, Error(no_input) for one that lacks an input, saying which.
 std::vector<std::string> metrics_to_score(const std::vector<std::string>& asked, const Scorable& scorable);
 
-/// Vectors to the next frame alone are carried forward from the frame before, as render does.
+/// Of a frame with depth. Vectors to the next frame alone are carried forward from the frame before, as render does.
+GeometryPlanes geometry_of(const Frame& frame, const Frame* before);
 GeometryPlanes load_geometry(const Input& input, const std::string& view, int frame);
 
 /// Frame `number` of a result beside its reference (may be null) on geometry and mask (may be null, empty). Throws

@@ -74,6 +74,7 @@ ViewPipeline::ViewPipeline(const preset::Preset& preset, std::string view, const
     made.add(entry.needs);
     stages_.push_back(std::move(entry));
   }
+  makes_ao_ = made.ao_at_pixels;
   if (outputs.ao_channel && !made.ao_at_pixels)
     throw Error(ErrorCode::config, "the AO channel is wanted, but no stage makes AO at full resolution",
                 "choose a preset with AO, or leave out --ao and --ao-only");

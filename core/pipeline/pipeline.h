@@ -53,6 +53,7 @@ class ViewPipeline {
 
   const std::string& view() const { return view_; }
   size_t stages() const { return stages_.size(); }
+  bool makes_ao() const { return makes_ao_; }  ///< at full resolution: Outputs::ao_channel can have it
   std::vector<Dependency> dependencies() const;  ///< in stage order
   RoleSet roles(size_t through) const;           ///< to load of a frame that goes `through` (PlannedFrame)
   bool layers(size_t through) const;             ///< does it need its layers?
@@ -91,6 +92,7 @@ class ViewPipeline {
   std::vector<Entry> stages_;
   std::vector<FinishedFrame> finished_;
   std::optional<Window> display_before_;
+  bool makes_ao_ = false;
 
  public:  // movable, with Item complete only in the source file
   ~ViewPipeline();

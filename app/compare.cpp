@@ -1,0 +1,170 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "app/compared_frames.h"
+#include "app/frame_notes.h"
+#include "app/log.h"
+#include "app/signals.h"
+#include "core/base/error.h"
+#include "core/base/memory_limit.h"
+#include "core/base/text.h"
+#include "core/io/publish.h"
+#include "core/parallel/rows.h"
+#include "core/preview/picture.h"
+
+namespace aftershade::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What every preset writes, if frames are written.
+struct Files {
+  std::vector<std::unique_ptr<io::FileSink>> sinks;
+
+  Files(const CompareJob& job, FrameNotes& notes) {
+    for (const Contender& contender : job.contenders) {
+      sinks.emplace_back();
+      if (!contender.output_path) continue;
+      fs::create_directories(fs::path(contender.output_path(job.frames.front())).parent_path());
+      io::SinkOptions options;
+      options.path = contender.output_path;
+      options.on_note = [&notes](int frame, const std::string& text) {
+        notes.add(frame, [text] { log().note(text); });
+      };
+      sinks.back() = std::make_unique<io::FileSink>(job.input.found.sequence, std::move(options));
+    }
+  }
+};
+
+void log_result(const pipeline::Progress& progress, const Contender& contender) {
+  for (const pipeline::FrameReport& report : progress.reports) {
+    for (const std::string& text : report.notes) log().note(cat(contender.preset.name, ": ", text));
+    for (const std::string& text : report.warnings)
+      log().warning(cat("frame ", progress.number, ": ", contender.preset.name, ": ", text));
+    std::string times = cat("frame ", progress.number, ": ", contender.preset.name, ": ");
+    for (const auto& time : report.times) times += cat(time.id, " ", fixed(time.milliseconds, 1), " ms  ");
+    log().detail(times);
+  }
+}
+
+/// Runs all presets over the frames.
+void run_all(CompareJob& job, const CompareArgs& args, ComparedFrames& compared) {
+  FrameNotes written;
+  const Files files(job, written);
+  std::vector<std::unique_ptr<FrameSink>> sinks;
+  std::vector<pipeline::Program> programs;
+  for (size_t i = 0; i < job.contenders.size(); ++i) {
+    sinks.push_back(compared.sink(i, files.sinks[i].get()));
+    programs.push_back({job.contenders[i].views, *sinks.back()});
+  }
+  ProgressPrinter progress(progress_kind(args.progress, args.quiet));
+  double frame_ms = 0;
+  pipeline::RunOptions run;
+  run.written = job.frames;
+  run.on_disk = job.input.found.sequence.frames();
+  run.preroll = job.preroll;
+  run.measure = job.measure;
+  run.frames_in_flight = thread_count() == 1 ? 1 : 3;
+  run.on_progress = [&](const pipeline::Progress& p) {
+    written.say(p.number);
+    log_result(p, job.contenders[p.program]);
+    compared.add_cost(p);
+    frame_ms += p.milliseconds;
+    const size_t presets = job.contenders.size();
+    if (p.written && p.done % presets == 0)
+      progress.update(p.number, p.done / presets, p.total / presets, std::exchange(frame_ms, 0.0));
+  };
+  run.should_stop = [] { return stop_signal() != 0; };
+  const GracefulStop graceful;
+  pipeline::run(programs, compared.source(), run);
+  progress.finish();
+  log().summarise();
+}
+
+void write_text(const fs::path& path, const std::string& text) {
+  io::publish({text.data(), text.size()}, path.string());
+}
+
+void write_reports(const report::Comparison& comparison, const CompareArgs& args, int64_t page_budget) {
+  const fs::path folder(args.output);
+  fs::create_directories(folder);
+  write_text(folder / "report.json", report::json_text(comparison));
+  write_text(folder / "report.csv", report::csv_text(comparison));
+  if (args.no_report) return;
+  std::vector<std::string> notes;
+  write_text(folder / "report.html", report::page_text(comparison, static_cast<size_t>(page_budget), notes));
+  for (const std::string& note : notes) log().note(note);
+}
+
+double sum_of(const std::vector<report::StageCost>& cost) {
+  double sum = 0;
+  for (const report::StageCost& stage : cost) sum += stage.milliseconds;
+  return sum;
+}
+
+/// A line a preset on stdout: the scores that most people ask for first, and the cost.
+void print_summary(const report::Comparison& comparison) {
+  std::vector<std::string> columns;
+  for (const std::string_view name : {"psnr", "ssim", "ldr_flip", "ao_rmse", "ao_correlation"})
+    if (std::find(comparison.metrics.begin(), comparison.metrics.end(), name) != comparison.metrics.end())
+      columns.emplace_back(name);
+  size_t width = 6;
+  for (const report::Candidate& candidate : comparison.candidates)
+    width = std::max(width, candidate.preset.name.size());
+  std::printf("%-*s", static_cast<int>(width), "preset");
+  for (const std::string& column : columns) std::printf("  %9s", column.c_str());
+  const bool cost = !comparison.candidates.front().cost.empty();
+  std::printf("%s\n", cost ? "   ms/frame         MB" : "");
+  for (const report::Candidate& candidate : comparison.candidates) {
+    std::printf("%-*s", static_cast<int>(width), candidate.preset.name.c_str());
+    for (const std::string& column : columns) {
+      const auto score = candidate.sequence.find(column);
+      const int field = static_cast<int>(std::max<size_t>(9, column.size()));
+      if (score == candidate.sequence.end() || std::isnan(score->second))
+        std::printf("  %*s", field, "-");
+      else
+        std::printf("  %*.*f", field, column == "psnr" ? 2 : 4, score->second);
+    }
+    if (cost) std::printf("  %9.1f  %9.1f", sum_of(candidate.cost), static_cast<double>(candidate.memory_bytes) / 1e6);
+    std::printf("\n");
+  }
+}
+
+int64_t page_budget_of(const std::string& text) {
+  if (const auto size = parse_size(text)) return *size;
+  throw Error(ErrorCode::usage, "--page-budget " + text + " is no size", "a number with K, M or G, such as 24M");
+}
+
+}  // namespace
+
+int compare(const CompareArgs& args) {
+  const int64_t page_budget = page_budget_of(args.page_budget);
+  CompareJob job = resolve_comparison(args);
+  report::ShowOptions show;
+  show.display = {args.ocio, args.view_transform};
+  show.pixel_aspect = job.input.source->info().pixel_aspect;
+  const std::string view_transform = job.pictures ? preview::view_name(show.display) : "";
+  log().note(cat(job.input.found.pattern.text(), ": profile ", job.input.producer.profile.name, " (",
+                 job.input.producer.why, "), ", job.compared, " presets, frames ", io::format_frames(job.frames)));
+  fs::create_directories(args.output);
+  ComparedFrames compared(job, show);
+  run_all(job, args, compared);
+  report::Comparison comparison = compared.take();
+  if (comparison.frames.empty()) end_by_signal(stop_signal());
+  comparison.program = "aftershade " AFTERSHADE_VERSION;
+  comparison.view_transform = view_transform;
+  comparison.threads = thread_count();
+  write_reports(comparison, args, page_budget);
+  print_summary(comparison);
+  if (stop_signal() != 0) {
+    log().note(cat("stopped by a signal: the reports are of ", comparison.frames.size(), " of ", job.frames.size(),
+                   " frames"));
+    end_by_signal(stop_signal());
+  }
+  return 0;
+}
+
+}  // namespace aftershade::app

@@ -1,0 +1,188 @@
+#include "app/compared_frames.h"
+
+#include <algorithm>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+
+namespace aftershade::app {
+
+namespace {
+
+report::Pixels pixels_of(const SidePlanes& side, bool color) {
+  if (!color) return side.ao.empty() ? report::Pixels{} : report::Pixels{side.ao};
+  if (side.color[0].empty()) return {};
+  return {side.color[0], side.color[1], side.color[2]};
+}
+
+/// The stages' medians over the frames, in the order of the first frame.
+std::vector<report::StageCost> median_cost(const std::vector<report::FrameResult>& frames) {
+  std::vector<report::StageCost> out;
+  if (frames.empty()) return out;
+  for (const report::StageCost& stage : frames.front().cost) {
+    std::vector<double> times;
+    for (const report::FrameResult& frame : frames)
+      for (const report::StageCost& cost : frame.cost)
+        if (cost.id == stage.id) times.push_back(cost.milliseconds);
+    const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+    std::nth_element(times.begin(), middle, times.end());
+    out.push_back({stage.id, *middle});
+  }
+  return out;
+}
+
+}  // namespace
+
+/// The source, with depth, vectors and the beauty of every compared frame kept for scores.
+class ComparedFrames::Tap final : public FrameSource {
+ public:
+  Tap(ComparedFrames& frames, FrameSource& source) : frames_(frames), source_(source) {}
+  std::optional<Frame> load(int number, const std::string& view, RoleSet roles, bool with_layers) override {
+    if (view != frames_.job_.view) return source_.load(number, view, roles, with_layers);
+    if (frames_.job_.geometry) roles.insert({Role::depth, Role::velocity_prev, Role::velocity_next});
+    auto frame =
+        source_.load(number, view, roles, with_layers || frames_.job_.pictures || !frames_.job_.metrics.empty());
+    if (frame) frames_.add_input(*frame);
+    return frame;
+  }
+
+ private:
+  ComparedFrames& frames_;
+  FrameSource& source_;
+};
+
+class ComparedFrames::Sink final : public FrameSink {
+ public:
+  Sink(ComparedFrames& frames, size_t contender, FrameSink* files)
+      : frames_(frames), contender_(contender), files_(files) {}
+  void write(int number, const std::vector<Frame>& views) override {
+    frames_.add_result(contender_, number, views.front());
+    if (!files_) return;
+    std::vector<Frame> without_ao;
+    for (const Frame& view : views) {
+      without_ao.push_back(shared(view));
+      without_ao.back().added.erase(kOwnAoChannel);
+    }
+    files_->write(number, without_ao);
+  }
+
+ private:
+  ComparedFrames& frames_;
+  size_t contender_;
+  FrameSink* files_;
+};
+
+ComparedFrames::ComparedFrames(const CompareJob& job, const report::ShowOptions& show)
+    : job_(job), tap_(std::make_unique<Tap>(*this, *job.input.source)), frames_(job.compared), memory_(job.compared) {
+  if (!job.metrics.empty())
+    for (size_t i = 0; i < job.compared; ++i) scorers_.emplace_back(job.metrics);
+  if (job.pictures) worst_.emplace(job.input.source->info().display_window, show);
+}
+ComparedFrames::~ComparedFrames() = default;
+
+FrameSource& ComparedFrames::source() { return *tap_; }
+
+std::unique_ptr<FrameSink> ComparedFrames::sink(size_t contender, FrameSink* files) {
+  return std::make_unique<Sink>(*this, contender, files);
+}
+
+void ComparedFrames::add_input(const Frame& frame) {
+  if (job_.metrics.empty() && !job_.pictures) return;
+  const std::lock_guard lock(mutex_);
+  const bool follows = before_ && before_->number == frame.number - 1;
+  if (std::binary_search(job_.frames.begin(), job_.frames.end(), frame.number)) {
+    Waiting& waiting = waiting_[frame.number];
+    waiting.results.resize(job_.contenders.size());
+    waiting.input = shared(frame);
+    if (job_.geometry) waiting.geometry = geometry_of(frame, follows ? &*before_ : nullptr);
+    for (auto& planes : waiting.input->roles) planes.clear();
+    waiting.input->file.reset();
+  }
+  before_ = shared(frame);
+  before_->layers.clear();
+  before_->file.reset();
+}
+
+void ComparedFrames::add_result(size_t contender, int number, const Frame& frame) {
+  const std::lock_guard lock(mutex_);
+  if (contender < job_.compared) frames_[contender][number].number = number;
+  const auto found = waiting_.find(number);
+  if (found == waiting_.end()) return;
+  const auto ao = frame.added.find(kOwnAoChannel);
+  Waiting& waiting = found->second;
+  waiting.results[contender] = side_planes(frame, ao == frame.added.end() ? Plane() : ao->second.shared(),
+                                           *job_.input.found.sequence.path(number));
+  // A preset without motion blur and AO apart leaves the layers alone, and they were not loaded for it.
+  if (waiting.results[contender]->color[0].empty())
+    waiting.results[contender]->color = side_planes(*waiting.input, Plane(), "").color;
+  if (++waiting.done < job_.contenders.size()) return;
+  with_context(cat("frame ", number), [&] { finish(number, waiting); });
+  waiting_.erase(found);
+}
+
+SidePlanes ComparedFrames::reference_of(int number, const Waiting& waiting) const {
+  SidePlanes out;
+  if (job_.reference) {
+    const SidePlanes& result = *waiting.results[*job_.reference];
+    out = {"the result of " + job_.reference_text, result.display, {}, result.ao.shared()};
+    for (size_t c = 0; c < 3; ++c) out.color[c] = result.color[c].shared();
+  }
+  for (const ScoredSide& side : job_.references) {
+    SidePlanes planes = load_side(side, number, side.color && out.color[0].empty(), side.ao && out.ao.empty());
+    out.path = planes.path;
+    out.display = planes.display;
+    if (out.color[0].empty()) out.color = std::move(planes.color);
+    if (out.ao.empty()) out.ao = std::move(planes.ao);
+  }
+  return out;
+}
+
+void ComparedFrames::finish(int number, Waiting& waiting) {
+  const SidePlanes reference = reference_of(number, waiting);
+  const bool has_reference = !job_.reference_text.empty();
+  const Plane mask = job_.mask ? job_.mask->load(number) : Plane();
+  for (size_t i = 0; i < scorers_.size(); ++i)
+    frames_[i][number].scores =
+        scorers_[i].add(scored_frame(number, *waiting.results[i], has_reference ? &reference : nullptr,
+                                     job_.geometry ? &waiting.geometry : nullptr, mask));
+  if (worst_) show(number, waiting, reference);
+}
+
+void ComparedFrames::show(int number, const Waiting& waiting, const SidePlanes& reference) {
+  // A reference of AO alone is compared with the AO.
+  const SidePlanes input = side_planes(*waiting.input, Plane(), "");
+  const bool color = !input.color[0].empty() && (job_.reference_text.empty() || !reference.color[0].empty());
+  std::vector<report::Pixels> results;
+  for (size_t i = 0; i < job_.compared; ++i) results.push_back(pixels_of(*waiting.results[i], color));
+  worst_->offer(number, results, pixels_of(reference, color), pixels_of(input, color));
+}
+
+void ComparedFrames::add_cost(const pipeline::Progress& progress) {
+  if (!progress.written || progress.program >= job_.compared || !job_.measure) return;
+  const std::lock_guard lock(mutex_);
+  std::vector<report::StageCost>& cost = frames_[progress.program][progress.number].cost;
+  cost.push_back({"read", progress.read_milliseconds});
+  for (const auto& time : progress.reports.front().times) cost.push_back({time.id, time.milliseconds});
+  memory_[progress.program] = static_cast<int64_t>(progress.memory_bytes);
+}
+
+report::Comparison ComparedFrames::take() {
+  report::Comparison out;
+  out.input = job_.input.found.pattern.text();
+  out.reference = job_.reference_text;
+  out.display = job_.input.source->info().display_window;
+  out.metrics = job_.metrics;
+  for (size_t i = 0; i < job_.compared; ++i) {
+    report::Candidate& candidate = out.candidates.emplace_back();
+    candidate.preset = job_.contenders[i].preset;
+    for (auto& [number, result] : frames_[i]) candidate.frames.push_back(std::move(result));
+    if (i < scorers_.size()) candidate.sequence = scorers_[i].sequence();
+    candidate.cost = median_cost(candidate.frames);
+    candidate.memory_bytes = memory_[i];
+  }
+  for (const report::FrameResult& frame : out.candidates.front().frames) out.frames.push_back(frame.number);
+  if (worst_) out.shown = worst_->take();
+  return out;
+}
+
+}  // namespace aftershade::app
