@@ -20,7 +20,7 @@ class TuneProgress {
       : kind_(progress_kind("auto", args.quiet)), evaluations_(args.evaluations), job_(job) {}
   ~TuneProgress() { log().end_status(); }
 
-  void round(int done) const { say(cat("costs: round ", done, " of ", tune::kRounds, " is measured"), false); }
+  void round(int done) const { say(cat("costs: ", done, " rounds are measured"), false); }
 
   void evaluated(const tune::Candidate& candidate, int count, bool best) {
     if (best) best_ = candidate;
@@ -147,8 +147,10 @@ int tune(const TuneArgs& args) {
     result.found = search(args, job, result.table, progress);
   }
   const tune::Found& found = result.found;
-  if (!found.within_budget && stop_signal() == 0)
+  if (!found.within_budget) {
+    stop_if_asked();
     fail_budget(job, found.best.cost, values_text(job, found.best.values));
+  }
   if (stop_signal() == 0) verify(job, result);
   write(args, job, result);
   if (stop_signal() != 0) {

@@ -38,7 +38,7 @@ std::vector<int> spread(const std::vector<int>& frames) {
 }
 
 /// The metric that is meant, which must be able to see what the stage does.
-const metrics::MetricInfo& metric_for(const TuneArgs& args, const preset::StageDescription& stage,
+const metrics::MetricInfo& metric_for(const TuneArgs& args, const Input& input, const preset::StageDescription& stage,
                                       const pipeline::Offer& offer) {
   const pipeline::Needs needs = pipeline::make_stage(stage.params)->needs(offer);
   const std::string method(preset::method_of(stage.params));
@@ -47,9 +47,10 @@ const metrics::MetricInfo& metric_for(const TuneArgs& args, const preset::StageD
                 cat("stage ", stage.id, " (", method, ") filters channel ", needs.channels.front(),
                     ", which no metric looks at"),
                 "tune another stage");
-  const metrics::MetricInfo& metric = tune::metric_named(!args.metric.empty() ? args.metric
-                                                         : needs.layers       ? "psnr"
-                                                                              : "ao_rmse");
+  Scorable scorable{true, true, true};
+  add_geometry(input, input.views.front(), scorable);
+  const std::string name = !args.metric.empty() ? args.metric : needs.layers ? "psnr" : "ao_rmse";
+  const metrics::MetricInfo& metric = tune::metric_named(metrics_to_score({name}, scorable).front());
   if (metric.of_ao && needs.layers)
     throw Error(ErrorCode::usage,
                 cat("stage ", stage.id, " (", method, ") changes colours, and ", metric.name, " looks at the AO"),
@@ -234,7 +235,7 @@ TuneJob resolve_tune(const TuneArgs& args) {
   setup.offer = offer_of(job.input, setup.view);
   setup.on_disk = job.input.found.sequence.frames();
   setup.preroll = preroll_of(args.preroll);
-  setup.metric = metric_for(args, stage, setup.offer);
+  setup.metric = metric_for(args, job.input, stage, setup.offer);
   setup.should_stop = [] { return stop_signal() != 0; };
   const bool preset_reference = is_preset(args.reference);
   choose_frames(

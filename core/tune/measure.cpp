@@ -1,6 +1,7 @@
 #include "core/tune/measure.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "core/parallel/rows.h"
@@ -14,7 +15,9 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-Measured summary(const std::vector<Cost>& costs) {
+using Samples = std::vector<Cost>;
+
+Measured summary(const Samples& costs) {
   std::vector<double> ms, bytes, deviations;
   for (const Cost& cost : costs) ms.push_back(cost.milliseconds), bytes.push_back(cost.bytes);
   const double middle = median(ms);
@@ -25,6 +28,26 @@ Measured summary(const std::vector<Cost>& costs) {
 template <class Preset>
 auto& params_of(Preset& preset, const std::string& stage) {
   return std::ranges::find_if(preset.stages, [&](const auto& s) { return s.id == stage; })->params;
+}
+
+/// One element a preset.
+std::optional<std::vector<Samples>> samples_in_turn(const Trial& trial, const std::vector<preset::Preset>& presets,
+                                                    const std::string& stage, int frame,
+                                                    const std::function<void(int)>& on_round) {
+  std::vector<Samples> samples(presets.size());
+  const auto start = std::chrono::steady_clock::now();
+  const auto is_long = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > kRoundsSeconds;
+  };
+  for (int round = 0; round < kFewestRounds || (round < kMostRounds && !is_long()); ++round) {
+    for (size_t i = 0; i < presets.size(); ++i) {
+      const size_t turn = (i + static_cast<size_t>(round)) % presets.size();
+      samples[turn].push_back(trial.cost(presets[turn], stage, frame));
+      if (trial.setup().should_stop && trial.setup().should_stop()) return std::nullopt;
+    }
+    on_round(round + 1);
+  }
+  return samples;
 }
 
 /// Where the axis is measured; with the base's own value, in rising order.
@@ -64,17 +87,10 @@ std::vector<double> values_of(const preset::Preset& preset, const std::string& s
 std::optional<std::vector<Measured>> measure_in_turn(const Trial& trial, const std::vector<preset::Preset>& presets,
                                                      const std::string& stage, int frame,
                                                      const std::function<void(int)>& on_round) {
-  std::vector<std::vector<Cost>> costs(presets.size());
-  for (int round = 0; round < kRounds; ++round) {
-    for (size_t i = 0; i < presets.size(); ++i) {
-      const size_t turn = (i + static_cast<size_t>(round)) % presets.size();
-      costs[turn].push_back(trial.cost(presets[turn], stage, frame));
-      if (trial.setup().should_stop && trial.setup().should_stop()) return std::nullopt;
-    }
-    on_round(round + 1);
-  }
+  const auto samples = samples_in_turn(trial, presets, stage, frame, on_round);
+  if (!samples) return std::nullopt;
   std::vector<Measured> out;
-  for (const auto& measured : costs) out.push_back(summary(measured));
+  for (const Samples& costs : *samples) out.push_back(summary(costs));
   return out;
 }
 
@@ -87,14 +103,13 @@ CostTable blank_table(const Subject& subject, const Frame& frame) {
   table.base = params::write(preset::table_of(params), preset::values_of(params));
   table.width = frame.window.width(), table.height = frame.window.height();
   table.threads = thread_count();
-  table.rounds = kRounds;
   return table;
 }
 
 std::optional<CostTable> measure_table(const Trial& trial, const Subject& subject, CostTable table,
                                        const std::function<void(int)>& on_round) {
   const std::vector<double> base = values_of(subject.preset, subject.stage, subject.axes);
-  std::vector<preset::Preset> presets{subject.preset};
+  std::vector<preset::Preset> presets;
   for (size_t i = 0; i < subject.axes.size(); ++i) {
     CostCurve& curve = table.curves.emplace_back();
     curve.key = subject.axes[i].key;
@@ -102,16 +117,22 @@ std::optional<CostTable> measure_table(const Trial& trial, const Subject& subjec
     std::vector<double> values = base;
     for (const double value : curve.values) {
       values[i] = value;
-      if (value != base[i]) presets.push_back(with_values(subject.preset, subject.stage, subject.axes, values));
+      presets.push_back(with_values(subject.preset, subject.stage, subject.axes, values));
     }
   }
-  const auto measured = measure_in_turn(trial, presets, subject.stage, subject.frame, on_round);
-  if (!measured) return std::nullopt;
-  auto next = measured->begin();
-  table.cost = *next++;
+  auto samples = samples_in_turn(trial, presets, subject.stage, subject.frame, on_round);
+  if (!samples) return std::nullopt;
+  table.rounds = static_cast<int>(samples->front().size());
+  Samples of_base;
+  for (size_t i = 0; i < presets.size(); ++i)
+    if (presets[i] == subject.preset) of_base.insert(of_base.end(), (*samples)[i].begin(), (*samples)[i].end());
+  table.cost = summary(of_base);
+  auto next = samples->begin();
   for (size_t i = 0; i < table.curves.size(); ++i)
-    for (const double value : table.curves[i].values)
-      table.curves[i].costs.push_back(value == base[i] ? table.cost : *next++);
+    for (const double value : table.curves[i].values) {
+      table.curves[i].costs.push_back(value == base[i] ? table.cost : summary(*next));
+      ++next;
+    }
   judge_noise(table);
   return table;
 }

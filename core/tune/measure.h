@@ -17,7 +17,10 @@ struct Subject {
   int frame;
 };
 
-inline constexpr int kRounds = 5;
+/// At least so many rounds, and more, up to so many, as long as all together take less than that: what is short is
+/// measured more often.
+inline constexpr int kFewestRounds = 5, kMostRounds = 100;
+inline constexpr double kRoundsSeconds = 3;
 
 /// The preset with other values of the stage's parameters, an axis each.
 preset::Preset with_values(const preset::Preset& preset, const std::string& stage, const Axes& axes,
@@ -25,7 +28,7 @@ preset::Preset with_values(const preset::Preset& preset, const std::string& stag
 /// The preset's own values of them.
 std::vector<double> values_of(const preset::Preset& preset, const std::string& stage, const Axes& axes);
 
-/// Median and spread of each preset's cost over kRounds rounds, in each of which all take their turn, beginning with
+/// Median and spread of each preset's cost over several rounds, in each of which all take their turn, beginning with
 /// another one. `on_round` is told how many rounds are done; nullopt when the trial's should_stop() says so.
 std::optional<std::vector<Measured>> measure_in_turn(const Trial& trial, const std::vector<preset::Preset>& presets,
                                                      const std::string& stage, int frame,
@@ -34,8 +37,8 @@ std::optional<std::vector<Measured>> measure_in_turn(const Trial& trial, const s
 /// A table without measurements: what it will be of. The program's name is left to the caller.
 CostTable blank_table(const Subject& subject, const Frame& frame);
 
-/// Measures the stage at the preset's values, and with one parameter at a time at both ends of its axis and at a third
-/// and two thirds of it. nullopt as measure_in_turn().
+/// Measures the stage with one parameter at a time at both ends of its axis and at a third and two thirds of it, and
+/// as often as each of them at the preset's values, all in turn. nullopt as measure_in_turn().
 std::optional<CostTable> measure_table(const Trial& trial, const Subject& subject, CostTable blank,
                                        const std::function<void(int)>& on_round);
 

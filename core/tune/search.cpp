@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kStep = 0.2;             ///< of the first simplex: a factor of 1.7 where kReach is searched
 constexpr double kRestartStep = 0.1;      ///< of those that begin at the best point
-constexpr double kTolerance = 0.004;      ///< a factor of 1.01 there
+constexpr double kTolerance = 0.01;       ///< a factor of 1.03 there
 constexpr int kRestarts = 30;             ///< a budget, at most: small spaces are soon known
 constexpr int kPointsPerEvaluation = 30;  ///< points that cost no evaluation are not free of time
 
@@ -91,7 +91,9 @@ class Search {
       bool matters = false;
       for (const double direction : {1.0, -1.0}) {
         if (is_over(options_.evaluations)) break;
-        const Candidate& there = evaluate(neighbour(i, direction));
+        const std::vector<double> values = neighbour(i, direction);
+        if (values == problem_.start) continue;
+        const Candidate& there = evaluate(values);
         matters = matters || there.cost != found_.start.cost || there.score != found_.start.score;
         cost_varies_ = cost_varies_ || there.cost.milliseconds != found_.start.cost.milliseconds;
         const Rank rank = rank_of(there, options_.budget);
@@ -124,8 +126,10 @@ class Search {
       return excess > 0 ? Rank{excess, 0} : rank_of(evaluate(values), budget);
     };
     points_ = 0;
-    for (int i = 0; i < kRestarts && !is_over(limit) && !active_.empty(); ++i)
-      nelder_mead(start_of(i, budget), steps_of(i), kTolerance, rank);
+    for (int i = 0; i < kRestarts && !is_over(limit) && !active_.empty(); ++i) {
+      const Point start = start_of(i, budget);
+      nelder_mead(start, steps_of(i, start), kTolerance, rank);
+    }
   }
 
   /// The best so far, which is the start at first; every second restart begins at a point drawn at random.
@@ -135,13 +139,27 @@ class Search {
     for (double& coordinate : point) coordinate = random_.uniform();
     return point;
   }
-  Point steps_of(int restart) {
+
+  /// At first the way that looked better, later any.
+  Point steps_of(int restart, const Point& start) {
     Point steps;
-    for (const size_t i : active_) {
+    for (size_t i = 0; i < active_.size(); ++i) {
       const double side = random_.uniform() < 0.5 ? -1 : 1;
-      steps.push_back(restart == 0 ? steps_.at(i) : side * (restart % 2 == 0 ? kRestartStep : kStep));
+      const double step = restart == 0 ? steps_.at(active_[i]) : side * (restart % 2 == 0 ? kRestartStep : kStep);
+      steps.push_back(step_inside(problem_.axes[active_[i]], start[i], step));
     }
     return steps;
+  }
+
+  /// A simplex needs a volume: the step leads to another whole number, and not out of the cube.
+  static double step_inside(const Axis& axis, double from, double step) {
+    const auto to_next = [&](double side) {
+      const double next = position_of(axis, value_at(axis, from) + side);
+      return side * std::max(std::abs(step), axis.integer ? std::abs(next - from) : 0);
+    };
+    const double side = step < 0 ? -1 : 1, there = to_next(side), back = to_next(-side);
+    const auto is_inside = [&](double s) { return from + s >= 0 && from + s <= 1; };
+    return !is_inside(there) && is_inside(back) ? back : there;
   }
 
   std::vector<Candidate> front() const {

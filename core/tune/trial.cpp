@@ -15,11 +15,14 @@ constexpr const char* kAoChannel = "AO";
 
 Compared compared(const Frame& frame) {
   Compared out;
+  const auto shown = [&](const Plane& plane, float background) {
+    return frame.window == frame.display ? plane.shared() : placed(plane, frame.window, frame.display, background);
+  };
   const auto ao = frame.added.find(kAoChannel);
-  if (ao != frame.added.end()) out.ao = placed(ao->second, frame.window, frame.display, 1);
+  if (ao != frame.added.end()) out.ao = shown(ao->second, 1);
   const auto beauty = std::ranges::find_if(frame.layers, [](const Layer& layer) { return layer.is_beauty; });
   if (beauty != frame.layers.end() && beauty->planes.size() >= 3)
-    for (size_t i = 0; i < 3; ++i) out.color.push_back(placed(beauty->planes[i], frame.window, frame.display, 0));
+    for (size_t i = 0; i < 3; ++i) out.color.push_back(shown(beauty->planes[i], 0));
   return out;
 }
 

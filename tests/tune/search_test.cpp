@@ -173,6 +173,17 @@ TEST(Search, KeepsTheBudgetAndUsesIt) {
   EXPECT_NEAR(found.best.values[1], 0.4, 0.02);
 }
 
+TEST(Search, LeavesABorderAndAWholeNumber) {
+  // From a = 1, the least, the way down is where b rises with it: along neither axis alone.
+  Problem problem{{whole("a", 1, 4), real("b", 0.1, 10)}, {1, 1}, {}, free_of_charge};
+  problem.score = [](const std::vector<double>& v) {
+    return std::pow(v[0] - 3, 2) + 10 * std::pow(std::log2(v[1] / v[0]), 2);
+  };
+  const Found found = search(problem, {});
+  EXPECT_EQ(found.best.values[0], 3);
+  EXPECT_NEAR(found.best.values[1], 3, 0.05);
+}
+
 TEST(Search, StartsOverTheBudget) {
   SearchOptions options;
   options.budget.milliseconds = 2;
