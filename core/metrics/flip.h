@@ -7,7 +7,8 @@
 /// temporal_metrics.h. Images are linear Rec.709; below 0 counts as 0.
 ///
 /// A pixel with a value that is not finite in either image does not count: its error is NaN, and to its neighbours both
-/// images are black there. With planes of different sizes every error is NaN.
+/// images are black there. With planes of different sizes every error is NaN. Black images are images: two of them do
+/// not differ. Of a file with more channels, who calls chooses the three.
 namespace aftershade::metrics {
 
 /// 0.7 m away from a screen that shows 3840 pixels on 0.7 m: the papers' viewer.

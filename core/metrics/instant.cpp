@@ -139,7 +139,7 @@ const std::vector<AgeError>& Instant::since_disoccluded(Signal signal) {
 const std::vector<AgeError>& Instant::since_left(Signal signal) {
   if (since_footprint_.empty())
     since_footprint_ =
-        frames_since(grown(past().moving, border_px(frame_.depth.height)), before_->since_footprint, past());
+        frames_since(moving_footprint(past(), border_px(frame_.depth.height)), before_->since_footprint, past());
   std::vector<AgeError>& errors = left_errors_[signal];
   if (errors.empty()) errors = errors_since(since_footprint_, 0, signal);
   return errors;

@@ -132,6 +132,21 @@ Plane grown(ConstPlaneView mask, int reach_px) {
   return out;
 }
 
+Plane moving_footprint(const Past& past, int reach_px) {
+  constexpr float kEnough = 4;
+  const Plane& moving = past.moving;
+  Plane together(moving.width(), moving.height());
+  for_rows(moving.height(), [&](int y) {
+    for (int x = 0; x < moving.width(); ++x) {
+      float around = 0;
+      for (int j = std::max(y - 1, 0); j <= std::min(y + 1, moving.height() - 1); ++j)
+        for (int i = std::max(x - 1, 0); i <= std::min(x + 1, moving.width() - 1); ++i) around += moving(i, j);
+      together(x, y) = moving(x, y) > 0 && around >= kEnough ? 1.0F : 0.0F;
+    }
+  });
+  return grown(together, reach_px);
+}
+
 Plane disoccluded(const Past& past) {
   Plane out(past.x.width(), past.x.height());
   for_rows(out.height(), [&](int y) {

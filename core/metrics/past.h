@@ -40,6 +40,10 @@ Plane unstable_pixels(ConstPlaneView depth, int reach_px = 4);
 /// 1 where the mask is above 0.5 within `reach_px` along both axes.
 Plane grown(ConstPlaneView mask, int reach_px);
 
+/// Where moving surfaces may change what is around them: 1 within `reach_px` of pixels that move, if 4 of the 9 around
+/// them do (a pixel that shows two surfaces at once has a vector of neither).
+Plane moving_footprint(const Past& past, int reach_px);
+
 /// 1 where a surface comes into sight that something hid in the frame before: its place there is known and lies in the
 /// picture, but none of the pixels around shows it.
 Plane disoccluded(const Past& past);

@@ -99,6 +99,11 @@ TEST(LdrFlip, OfEqualImagesIsZeroAndSwappingThemChangesNothing) {
     }
 }
 
+TEST(LdrFlip, OfBlackImagesIsZeroAndOfBlackAndWhiteTheSameBothWays) {
+  EXPECT_EQ(uniform_error({0, 0, 0}, {0, 0, 0}), 0);
+  EXPECT_EQ(uniform_error({0, 0, 0}, {1, 1, 1}), uniform_error({1, 1, 1}, {0, 0, 0}));
+}
+
 TEST(LdrFlip, GrowsWithTheDifferenceAndWithItsSizeOnTheRetina) {
   double before = 0;
   for (const double grey : {0.21, 0.25, 0.4, 0.7, 1.0}) {

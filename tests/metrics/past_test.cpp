@@ -100,6 +100,18 @@ TEST(Grown, ReachesAsFarAlongBothAxes) {
   EXPECT_EQ(grown(mask, 0)(6, 3), 1);
 }
 
+TEST(MovingFootprint, IsAroundSurfacesButNotAroundLinesOfMixedPixels) {
+  Past past;
+  past.moving = Plane(24, 9);
+  for (int y = 0; y < 9; ++y) {
+    past.moving(20, y) = 1;  // one pixel wide: 3 of 9
+    if (y >= 3 && y < 5) past.moving(5, y) = past.moving(6, y) = 1;
+  }
+  const Plane out = moving_footprint(past, 2);
+  for (int y = 0; y < 9; ++y)
+    for (int x = 0; x < 24; ++x) EXPECT_EQ(out(x, y), x >= 3 && x <= 8 && y >= 1 && y <= 6 ? 1 : 0) << x << "," << y;
+}
+
 TEST(UnstablePixels, AreThinThingsAndWhatIsNearThem) {
   // A slanted wall, which is linear in 1/z, with an edge (stable on either side), a railing of one pixel and sky.
   Plane depth(60, 9);
