@@ -50,6 +50,17 @@ Picture delta(const Picture& picture, const Picture& base) {
   return out;
 }
 
+/// With a base what is smaller; a difference that is small beyond doubt is not tried against the picture itself.
+PackedPicture packed_picture(const Picture& picture, const Picture* base, int base_index) {
+  constexpr uint64_t kBeyondDoubt = 4;
+  PackedPicture out{picture.width, picture.height, -1, {}};
+  if (base) out.base = base_index, out.png = preview::png(delta(picture, *base));
+  if (base && kBeyondDoubt * difference(picture, *base) < unevenness(picture)) return out;
+  std::vector<unsigned char> plain = preview::png(picture);
+  if (!base || plain.size() <= out.png.size()) out.base = -1, out.png = std::move(plain);
+  return out;
+}
+
 std::vector<size_t> order_of(size_t count, size_t first) {
   std::vector<size_t> order;
   if (first < count) order.push_back(first);
@@ -112,11 +123,8 @@ std::vector<PackedPicture> packed(const std::vector<Picture>& pictures, size_t f
   std::vector<PackedPicture> out(pictures.size());
   for_rows(static_cast<int>(pictures.size()), [&](int index) {
     const auto i = static_cast<size_t>(index);
-    const Picture& picture = pictures[i];
-    if (picture.empty()) return;
-    const bool plain = bases[i] < 0;
-    out[i] = {picture.width, picture.height, bases[i],
-              preview::png(plain ? picture : delta(picture, pictures[static_cast<size_t>(bases[i])]))};
+    const Picture* base = bases[i] < 0 ? nullptr : &pictures[static_cast<size_t>(bases[i])];
+    if (!pictures[i].empty()) out[i] = packed_picture(pictures[i], base, bases[i]);
   });
   return out;
 }

@@ -19,6 +19,7 @@ struct PackedPicture {
 /// The base of each picture, or -1: among those before it the one that it differs least from, if that is less than
 /// its pixels differ from their left neighbours. The picture `first` is before all others.
 std::vector<int> bases_of(const std::vector<Picture>& pictures, size_t first);
+/// Each picture as what is smaller: its own PNG or that of its difference from its base.
 std::vector<PackedPicture> packed(const std::vector<Picture>& pictures, size_t first);
 
 /// A frame with pictures of half the size `halvings` times: the whole frame scaled, the region cut around its middle.

@@ -66,7 +66,7 @@ Candidate candidate_of(const SampleOptions& options, const std::string& name, si
 }
 
 ShownFrame shown_of(const SampleOptions& options, int frame) {
-  const int size = std::min({160, options.display.width(), options.display.height()});
+  const int size = std::min({160, options.display.width() / 2, options.display.height() / 2});
   const int x = 60 + 5 * frame, y = 40 + 3 * frame;
   ShownFrame out{frame, 0.02 + 0.1 * hashed(static_cast<unsigned>(frame), 0, 9), options.display, {}, {}};
   if (options.detail)
@@ -91,7 +91,7 @@ std::array<unsigned char, 3> sample_pixel(int frame, size_t index, int x, int y)
   const double near = std::max(0.0, 1 - std::abs(distance - 90) / 60);
   value -= near * (20 + 6 * static_cast<double>(index % 9));
   value += 6 * hashed(static_cast<unsigned>(x), static_cast<unsigned>(y), static_cast<unsigned>(frame + 31)) +
-           3 * hashed(static_cast<unsigned>(x), static_cast<unsigned>(y), static_cast<unsigned>(index));
+           1.2 * hashed(static_cast<unsigned>(x), static_cast<unsigned>(y), static_cast<unsigned>(index));
   const auto code = [](double v) { return static_cast<unsigned char>(std::clamp(v, 0.0, 255.0)); };
   return {code(value), code(value * (distance < 90 ? 0.72 : 0.96)), code(value * (distance < 90 ? 0.5 : 1.02))};
 }

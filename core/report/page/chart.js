@@ -32,7 +32,7 @@ const chart = (() => {
   }
 
   /** Where a point's name goes: beside it where nothing else is, or nowhere. */
-  function placedLabels(points, x, y, box) {
+  function placedLabels(points, onFront, x, y, box) {
     const taken = points.map((p) => ({x0: x(p.cost) - 7, x1: x(p.cost) + 7, y0: y(p.value) - 7, y1: y(p.value) + 7}));
     const free = (r) => r.x0 >= box.left && r.x1 <= box.right && r.y0 >= box.top - 8 && r.y1 <= box.bottom
       && taken.every((t) => r.x1 <= t.x0 || r.x0 >= t.x1 || r.y1 <= t.y0 || r.y0 >= t.y1);
@@ -40,8 +40,10 @@ const chart = (() => {
     for (const point of points) {
       const text = point.name.length > 26 ? `${point.name.slice(0, 25)}…` : point.name;
       const width = text.length * 6.4 + 2, cx = x(point.cost), cy = y(point.value);
-      const places = [[9, 4, 'start'], [-9, 4, 'end'], [0, -10, 'middle'], [0, 18, 'middle'], [9, -7, 'start'], [9, 15, 'start'],
-        [-9, -7, 'end'], [-9, 15, 'end']];
+      // The front's line leaves its points to the right and comes from below.
+      const places = onFront.has(point.index)
+        ? [[-14, 4, 'end'], [10, -10, 'start'], [-8, -12, 'end'], [0, -15, 'middle'], [14, 15, 'start'], [-10, 18, 'end']]
+        : [[9, 4, 'start'], [-9, 4, 'end'], [0, -10, 'middle'], [0, 18, 'middle'], [9, -7, 'start'], [9, 15, 'start'], [-9, -7, 'end'], [-9, 15, 'end']];
       for (const [dx, dy, anchor] of places) {
         const left = cx + dx - (anchor === 'end' ? width : anchor === 'middle' ? width / 2 : 0);
         const area = {x0: left, x1: left + width, y0: cy + dy - 10, y1: cy + dy + 3};
@@ -91,12 +93,12 @@ const chart = (() => {
     const drawing = svg('svg', {width, height, viewBox: `0 0 ${width} ${height}`, role: 'group',
       'aria-label': `${titleOf(metric)} against cost`});
     drawing.append(axes(box, x, y, `cost, ms per frame${state.log ? ' (log)' : ''}`,
-      metric.better === 'zero' ? withUnit(metric) : `↑ better   ${withUnit(metric)}`));
+      upward(metric)));
     if (metric.better === 'zero') drawing.append(svg('line', {class: 'zero', x1: box.left, x2: box.right, y1: y(0), y2: y(0)}));
     if (metric.better !== 'zero') drawing.append(svg('path', {class: 'front-line', d: frontPath(front, x, y, box.right)}));
     // Names on the front are placed first.
     const ordered = [...front, ...points.filter((point) => !onFront.has(point.index))];
-    drawing.append(...placedLabels(ordered, x, y, box), ...points.map((point) => dot(point, x, y, onFront.has(point.index), metric)));
+    drawing.append(...placedLabels(ordered, onFront, x, y, box), ...points.map((point) => dot(point, x, y, onFront.has(point.index), metric)));
     const missing = report.presets.length - points.length;
     plot.replaceChildren(drawing, el('p', {class: 'caption'},
       `${metric.doc ? `${metric.doc[0].toUpperCase()}${metric.doc.slice(1)}. ` : ''}Ringed: the Pareto front, where nothing cheaper is better.`

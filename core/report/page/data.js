@@ -21,6 +21,8 @@ function filledElement(element, attributes, children) {
 }
 const byId = (id) => document.getElementById(id);
 
+const fileName = (path) => path.split('/').filter(Boolean).pop() ?? path;
+
 const isNumber = (value) => typeof value === 'number' && Number.isFinite(value);
 const finite = (values) => values.filter(isNumber);
 
@@ -44,6 +46,8 @@ function memory(bytes) {
 
 const titleOf = (metric) => metric.name.replace(/_/g, ' ');
 const withUnit = (metric) => (metric.unit ? `${titleOf(metric)} (${metric.unit})` : titleOf(metric));
+/** An axis title; axes point so that better is up, but for values that are best at 0. */
+const upward = (metric) => (metric.better === 'zero' ? `${withUnit(metric)}, best at 0` : `${withUnit(metric)}, better is up`);
 const direction = {lower: 'less is better', higher: 'more is better', zero: 'nearer to 0 is better'};
 
 /** How bad a value is: the smaller the better, whichever way the metric points. */

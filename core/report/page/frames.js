@@ -113,7 +113,7 @@ const frames = (() => {
     const y = scaleOf(values, up ? box.bottom : box.top, up ? box.top : box.bottom, {air: 0.1});
     const drawing = svg('svg', {width, height, viewBox: `0 0 ${width} ${height}`, tabindex: 0, role: 'application',
       'aria-label': `${titleOf(metric())} frame by frame; arrow keys read values, Enter shows the frame`});
-    drawing.append(axes(box, x, y, 'frame', metric().better === 'zero' ? withUnit(metric()) : `↑ better   ${withUnit(metric())}`, String));
+    drawing.append(axes(box, x, y, 'frame', upward(metric()), String));
     for (const {preset, values: own} of lines)
       drawing.append(svg('g', {class: 'series', 'data-preset': preset.index},
         svg('path', {class: 'line', d: linePath(own, x, y), style: `stroke:${colourOf(preset.index)}`, 'stroke-dasharray': dashOf(preset.index)}),

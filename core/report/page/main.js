@@ -1,8 +1,6 @@
 // The head of the page, and the start of everything.
 
 (() => {
-  const fileName = (path) => path.split('/').filter(Boolean).pop() ?? path;
-
   function frameText(numbers) {
     if (numbers.length === 0) return 'none';
     const runs = [];

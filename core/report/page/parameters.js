@@ -26,13 +26,13 @@ const parameters = (() => {
     const method = presets.map((preset) => stagesOf(preset).find((stage) => stage.id === row.id)?.method).find((m) => report.docs[m]?.[row.key]);
     return method ? report.docs[method][row.key] : row.key === 'method' ? 'which algorithm the stage is' : '';
   };
-  const textOf = (value) => (value === undefined ? '–' : value === true ? 'yes' : value === false ? 'no' : String(value));
+  const textOf = (value) => (value === undefined ? '–' : value === '' ? 'empty' : value === true ? 'yes' : value === false ? 'no' : String(value));
 
-  /** The value that most presets have, if several do. */
+  /** The value that most of the presets have that have one, if several do. */
   function commonest(texts) {
     const counts = new Map();
-    for (const text of texts) counts.set(text, (counts.get(text) ?? 0) + 1);
-    const [text, count] = [...counts].reduce((best, entry) => (entry[1] > best[1] ? entry : best));
+    for (const text of texts.filter((t) => t !== '–')) counts.set(text, (counts.get(text) ?? 0) + 1);
+    const [text, count] = [...counts].reduce((best, entry) => (entry[1] > best[1] ? entry : best), [null, 0]);
     return count > 1 ? text : null;
   }
 
@@ -81,7 +81,7 @@ const parameters = (() => {
     else bar.append(toggleButton('Show them', 'parameters-all', false, (on) => { state.all = on; draw(); }));
     if (report.presets.length > 2)
       bar.append(toggleButton('Only singled-out presets', 'parameters-singled', false, (on) => { state.singled = on; draw(); }));
-    if (report.presets.length > 2) bar.append(el('span', {class: 'hint'}, 'Bold differs from what most presets have.'));
+    if (report.presets.length > 2) bar.append(el('span', {class: 'hint'}, 'Bold differs from what most have.'));
     focus.listeners.push(() => { if (state.singled && focus.hovered === null) draw(); });
     byId('presets-list').append(...descriptions());
     draw();

@@ -2,7 +2,7 @@
 
 const results = (() => {
   const keyMetrics = ['psnr', 'ssim', 'ldr_flip', 'hdr_flip', 'flicker_stable', 'ao_rmse', 'ao_correlation', 'ao_bias', 'ao_flicker_stable'];
-  const computed = report.metrics.filter((metric) => report.presets.some((preset) => metric.name in preset.scores));
+  const computed = report.metrics.filter((metric) => report.presets.some((preset) => isNumber(preset.scores[metric.name])));
   const hasCost = report.presets.some((preset) => preset.total !== null);
   const hasMemory = report.presets.some((preset) => isNumber(preset.memory_bytes));
   const mostCost = Math.max(0, ...finite(report.presets.map((preset) => preset.total)));

@@ -2,7 +2,7 @@
 
 const viewer = (() => {
   const sources = report.presets.map((preset) => preset.name);
-  if (report.reference !== null) sources.push(`reference: ${report.reference}`);
+  if (report.reference !== null) sources.push(`reference: ${fileName(report.reference)}`);
   sources.push('input');
   const referenceIndex = report.reference === null ? -1 : report.presets.length;
   const state = {shown: 0, kind: 'whole', a: 0, b: 0, mode: 'wipe', gain: 1, playing: false};
@@ -49,8 +49,8 @@ const viewer = (() => {
       button.setAttribute('aria-pressed', String(Number(button.dataset.shown) === state.shown));
     const {region} = frame();
     byId('viewer-where').textContent = setOf() === 'detail' || frame().detail === null
-      ? `pixels ${region.x}, ${region.y} to ${region.x + region.width - 1}, ${region.y + region.height - 1}`
-      : `whole frame, ${frame().whole.find((p) => p)?.width ?? 0} px of ${report.display.width} wide; the outline is the worst region`;
+      ? `Frame ${frame().frame}, pixels ${region.x}, ${region.y} to ${region.x + region.width - 1}, ${region.y + region.height - 1}`
+      : `Frame ${frame().frame}, whole, ${frame().whole.find((p) => p)?.width ?? 0} px of ${report.display.width} wide; the outline is the worst region`;
     view.canvas.setAttribute('aria-label', `frame ${frame().frame}: ${both ? `${sources[state.a]} and ${sources[state.b]}` : sources[mode === 'a' ? state.a : state.b]}`);
     onFrame(frame().frame);
   }
@@ -173,7 +173,7 @@ const viewer = (() => {
       el('p', {id: 'viewer-missing', class: 'empty', hidden: true}));
     body.append(...controls(), view.element, el('div', {id: 'viewer-readout', class: 'readout'}), strip(),
       el('p', {class: 'caption'}, el('span', {id: 'viewer-where'}), '. View: ', report.view_transform || 'sRGB', '. ',
-        'Click the picture, then the wheel or + and − zoom, dragging or arrow keys pan; on the handle arrow keys wipe. Keys: W wipe, D difference, A, B, S swap, comma and point previous and next frame, space play.'));
+        el('span', {class: 'on-screen'}, 'Click the picture, then the wheel or + and − zoom, dragging or arrow keys pan; on the handle arrow keys wipe. Keys: W wipe, D difference, A, B, S swap, comma and point previous and next frame, space play.')));
     const [width, height] = [report.display.width, report.display.height];
     view.element.style.aspectRatio = `${Math.max(width, height)} / ${Math.min(height, width * 0.62)}`;
     byId('viewer').addEventListener('keydown', onKey);
