@@ -51,7 +51,7 @@ inline constexpr int kRequirementFailed = 1;
 /// `input` is RESULT.
 struct ScoreArgs : InputArgs, CommonArgs {
   std::string reference, geometry, mask, mask_from, reference_profile;
-  std::vector<std::string> metrics, requirements, reference_channels;
+  std::vector<std::string> metrics, requirements, frame_requirements, reference_channels;
   bool json = false, csv = false;
 };
 

@@ -77,7 +77,8 @@ std::vector<int> frames_of_both(const ScoreArgs& args, const Input& result, cons
 
 std::vector<Requirement> requirements_of(const ScoreArgs& args) {
   std::vector<Requirement> out;
-  for (const std::string& text : args.requirements) out.push_back(parse_requirement(text));
+  for (const std::string& text : args.requirements) out.push_back(parse_requirement(text, false));
+  for (const std::string& text : args.frame_requirements) out.push_back(parse_requirement(text, true));
   return out;
 }
 

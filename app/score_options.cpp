@@ -20,11 +20,14 @@ void add_sides(std::vector<Option<Args>>& t) {
                "what it should be; frames are matched by number, pictures by display window",
                {},
                true});
-  t.push_back({"--metric", "NAME", &Args::metrics,
-               "a score, see METRICS; may be repeated; by default those of --require, else all that the files allow"});
+  t.push_back(
+      {"--metric", "NAME", &Args::metrics,
+       "a score, see METRICS; may be repeated; by default those that are required, else all that the files allow"});
   t.push_back({"--require", "METRIC>=NUMBER", &Args::requirements,
                "a bound (>=, >, <=, <) on the score of the whole sequence; when it is not met the exit status is 1; a "
                "score that is no number never meets it; may be repeated"});
+  t.push_back({"--require-frames", "METRIC>=NUMBER", &Args::frame_requirements,
+               "the same for the score of every frame that has one; may be repeated"});
   t.push_back({"--mask", "MASK", &Args::mask,
                "scores count where it is above 0.5: alpha, a channel, cryptomatte:OBJECT or cryptomatte:LAYER/OBJECT"});
   t.push_back({"--mask-from", "INPUT", &Args::mask_from,

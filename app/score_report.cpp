@@ -67,6 +67,19 @@ std::vector<std::pair<int, double>> worst_first(const ScoreReport& report, const
                    [&](const auto& a, const auto& b) { return badness(a.second) > badness(b.second); });
   return frames;
 }
+
+/// What is wrong, "" when the requirement is met.
+std::string shortfall(const ScoreReport& report, const Requirement& requirement) {
+  if (!requirement.of_frames) {
+    const double value = report.of_sequence(requirement.metric);
+    return requirement.met(value) ? "" : shortly(value);
+  }
+  const auto frames = worst_first(report, requirement);
+  const auto failed =
+      std::count_if(frames.begin(), frames.end(), [&](const auto& frame) { return !requirement.met(frame.second); });
+  if (frames.empty()) return "no frame has a score";
+  return failed == 0 ? "" : cat("by ", failed, " of ", frames.size(), " frames");
+}
 }  // namespace
 
 bool Requirement::met(double value) const {
@@ -74,14 +87,15 @@ bool Requirement::met(double value) const {
   return strict ? value < bound : value <= bound;
 }
 
-Requirement parse_requirement(const std::string& text) {
+Requirement parse_requirement(const std::string& text, bool of_frames) {
   Requirement out;
   out.text = text;
+  out.of_frames = of_frames;
   const size_t at = text.find_first_of("<>");
   const size_t end = at == std::string::npos ? at : at + (text.compare(at + 1, 1, "=") == 0 ? 2 : 1);
   const std::optional<double> bound = at == std::string::npos ? std::nullopt : parse_number(text.substr(end));
   if (!bound || std::isnan(*bound) || at == 0)
-    throw Error(ErrorCode::usage, cat("--require ", text, " is no requirement"),
+    throw Error(ErrorCode::usage, cat(of_frames ? "--require-frames " : "--require ", text, " is no requirement"),
                 "write it as METRIC>=NUMBER or METRIC<=NUMBER, in quotes, such as 'psnr>=35'");
   out.metric = text.substr(0, at);
   out.least = text[at] == '>';
@@ -140,8 +154,9 @@ std::string json_text(const ScoreReport& report) {
   json["sequence"] = json_of(report, report.sequence);
   json["requirements"] = params::Json::array();
   for (const Requirement& requirement : report.requirements)
-    json["requirements"].push_back(
-        {{"text", requirement.text}, {"met", requirement.met(report.of_sequence(requirement.metric))}});
+    json["requirements"].push_back({{"text", requirement.text},
+                                    {"of", requirement.of_frames ? "frames" : "sequence"},
+                                    {"met", shortfall(report, requirement).empty()}});
   return json.dump(2, ' ', false, params::Json::error_handler_t::replace) + "\n";
 }
 
@@ -149,13 +164,13 @@ std::vector<std::string> failures(const ScoreReport& report) {
   constexpr size_t kMost = 3;
   std::vector<std::string> out;
   for (const Requirement& requirement : report.requirements) {
-    const double value = report.of_sequence(requirement.metric);
-    if (requirement.met(value)) continue;
+    const std::string wrong = shortfall(report, requirement);
+    if (wrong.empty()) continue;
     std::vector<std::string> worst;
-    for (const auto& [frame, of_frame] : worst_first(report, requirement))
-      if (worst.size() < kMost) worst.push_back(cat(frame, " (", shortly(of_frame), ")"));
-    out.push_back(cat(requirement.text, " is not met: ", shortly(value),
-                      worst.empty() ? "" : "; worst frames: " + join(worst, ", ")));
+    for (const auto& [frame, value] : worst_first(report, requirement))
+      if (worst.size() < kMost) worst.push_back(cat(frame, " (", shortly(value), ")"));
+    out.push_back(
+        cat(requirement.text, " is not met: ", wrong, worst.empty() ? "" : "; worst frames: " + join(worst, ", ")));
   }
   return out;
 }

@@ -9,16 +9,17 @@
 /// What `score` found, and how it is printed.
 namespace aftershade::app {
 
-/// --require 'METRIC>=NUMBER': of the whole sequence.
+/// --require 'METRIC>=NUMBER': of the whole sequence, or of every frame that has the score.
 struct Requirement {
   std::string text, metric;
   bool least = true;    ///< >= or >; else <= or <
   bool strict = false;  ///< > or <
   double bound = 0;
+  bool of_frames = false;        ///< --require-frames
   bool met(double value) const;  ///< NaN never is
 };
 /// Throws Error(usage) for anything else.
-Requirement parse_requirement(const std::string& text);
+Requirement parse_requirement(const std::string& text, bool of_frames);
 
 struct ScoreReport {
   std::string result, reference;  ///< patterns
@@ -37,7 +38,7 @@ std::string csv_text(const ScoreReport& report);
 /// Everything, with units and what each metric is; numbers that are not finite are null.
 std::string json_text(const ScoreReport& report);
 
-/// One line per requirement that is not met: the value, and the worst frames.
+/// One line per requirement that is not met: the value, or how many frames do not meet it, and the worst frames.
 std::vector<std::string> failures(const ScoreReport& report);
 
 }  // namespace aftershade::app
