@@ -22,6 +22,8 @@ function filledElement(element, attributes, children) {
 const byId = (id) => document.getElementById(id);
 
 const fileName = (path) => path.split('/').filter(Boolean).pop() ?? path;
+/** There may be several, one for colour and one for AO. */
+const referenceName = () => report.reference.split(', ').map(fileName).join(' and ');
 
 const isNumber = (value) => typeof value === 'number' && Number.isFinite(value);
 const finite = (values) => values.filter(isNumber);

@@ -24,7 +24,7 @@
     byId('head').append(
       el('p', {class: 'eyebrow'}, 'aftershade compare'),
       el('h1', {}, fileName(report.input)),
-      el('p', {class: 'lead'}, `${count} ${count === 1 ? 'preset' : 'presets'}${report.reference === null ? ', without a reference' : ` against ${fileName(report.reference)}`}`),
+      el('p', {class: 'lead'}, `${count} ${count === 1 ? 'preset' : 'presets'}${report.reference === null ? ', without a reference' : ` against ${referenceName()}`}`),
       el('dl', {}, facts.filter(([, value]) => value !== '').map(([name, value]) => el('div', {}, el('dt', {}, name), el('dd', {}, String(value))))),
       ...report.notes.map((note) => el('p', {class: 'note'}, `${note[0].toUpperCase()}${note.slice(1)}.`)));
   }

@@ -7,7 +7,10 @@ const results = (() => {
   const hasMemory = report.presets.some((preset) => isNumber(preset.memory_bytes));
   const mostCost = Math.max(0, ...finite(report.presets.map((preset) => preset.total)));
   const few = computed.filter((metric) => keyMetrics.includes(metric.name));
-  const state = {all: few.length === 0, stages: false, sort: null, reversed: false};
+  const costs = finite(report.presets.map((preset) => preset.total)).sort((a, b) => a - b);
+  // One preset far dearer than the rest would leave the others no length.
+  const uneven = costs.length > 1 && mostCost > 6 * costs[Math.floor((costs.length - 1) / 2)];
+  const state = {all: few.length === 0, stages: false, shares: uneven, sort: null, reversed: false};
 
   /** A column: its heading, what it sorts by (smaller first), and its cell. */
   function metricColumn(metric) {
@@ -28,16 +31,16 @@ const results = (() => {
     const bar = el('span', {class: 'cost-bar', role: 'img', 'aria-label': preset.cost.map((s) => `${s.stage} ${milliseconds(s.ms)} ms`).join(', ')});
     for (const stage of preset.cost)
       bar.append(el('i', {class: stageHatched(stage.stage) ? 'hatched' : null, title: `${stage.stage} ${milliseconds(stage.ms)} ms`,
-        style: `width:${(100 * (stage.ms ?? 0)) / (mostCost || 1)}%;background-color:${stageColour(stage.stage)}`}));
+        style: `width:${(100 * (stage.ms ?? 0)) / ((state.shares ? preset.total : mostCost) || 1)}%;background-color:${stageColour(stage.stage)}`}));
     return bar;
   }
-  const costColumn = {
-    key: 'cost', heading: ['cost', el('small', {}, 'ms per frame')], wide: true,
+  const costColumn = () => ({
+    key: 'cost', heading: ['cost', el('small', {}, state.shares ? 'ms per frame; shares of the stages' : 'ms per frame')], wide: true,
     title: 'median milliseconds of a frame, all stages; work shared by several presets counts in full for each',
     order: (preset) => preset.total ?? Infinity,
     cell: (preset) => preset.total === null ? el('td', {class: 'number'}, '–')
       : el('td', {class: 'cost'}, el('span', {class: 'number'}, milliseconds(preset.total)), costBar(preset)),
-  };
+  });
   const stageColumn = (name) => {
     const ms = (preset) => preset.cost?.find((stage) => stage.stage === name)?.ms;
     return {
@@ -60,7 +63,7 @@ const results = (() => {
 
   function columns() {
     const out = [nameColumn, ...(state.all ? computed : few).map(metricColumn)];
-    if (hasCost) out.push(costColumn);
+    if (hasCost) out.push(costColumn());
     if (hasCost && state.stages) out.push(...stageNames.map(stageColumn));
     if (hasMemory) out.push(memoryColumn);
     return out;
@@ -119,6 +122,9 @@ const results = (() => {
     if (few.length > 0 && few.length < computed.length)
       bar.append(segmented('Which metrics', 'results-metrics', [['few', 'Key metrics'], ['all', `All ${computed.length}`]], 'few',
         (choice) => { state.all = choice === 'all'; draw(); }));
+    if (hasCost && costs.length > 1)
+      bar.append(segmented('Cost bars', 'results-bars', [['scale', 'Bars to scale'], ['shares', 'Shares']], state.shares ? 'shares' : 'scale',
+        (choice) => { state.shares = choice === 'shares'; draw(); }));
     if (hasCost) bar.append(toggleButton('Stage times', 'results-stages', false, (on) => { state.stages = on; draw(); }));
     bar.append(el('button', {type: 'button', id: 'clear-focus', class: 'quiet', onclick: () => focus.clear()}, 'Show all alike'));
     if (!hasCost) bar.append(el('span', {class: 'hint'}, 'Cost was not measured.'));

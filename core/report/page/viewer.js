@@ -2,7 +2,7 @@
 
 const viewer = (() => {
   const sources = report.presets.map((preset) => preset.name);
-  if (report.reference !== null) sources.push(`reference: ${fileName(report.reference)}`);
+  if (report.reference !== null) sources.push(`reference: ${referenceName()}`);
   sources.push('input');
   const referenceIndex = report.reference === null ? -1 : report.presets.length;
   const state = {shown: 0, kind: 'whole', a: 0, b: 0, mode: 'wipe', gain: 1, playing: false};

@@ -176,6 +176,12 @@ async function checkTable(page) {
   await press(page, '#results-stages');
   assert.ok(await columns() > before, 'a column per stage');
   await press(page, '#results-stages');
+  const widths = () => page.locator('#results .cost-bar').evaluateAll((bars) => bars.map((bar) =>
+    [...bar.children].reduce((sum, part) => sum + parseFloat(part.style.width), 0)));
+  await press(page, '#results-bars [data-value=shares]');
+  for (const width of await widths()) assert.ok(Math.abs(width - 100) < 0.01, 'shares add up');
+  await press(page, '#results-bars [data-value=scale]');
+  assert.ok(Math.abs(Math.max(...await widths()) - 100) < 0.01 && Math.min(...await widths()) < 90, 'bars to scale');
   await press(page, '#results tbody tr:nth-child(2) .preset-name');
   await page.mouse.move(5, 5);
   assert.equal(await page.locator('#chart-plot .point.in-focus').count(), 1, 'singled out in the chart');
@@ -214,7 +220,7 @@ export async function checkSamples(browser, folder) {
   const many = await openPage(browser, `${folder}/many.html`);
   assert.equal(await many.evaluate(() => window.hacked), undefined, 'names are text');
   assert.ok((await texts(many, '.preset-name')).some((name) => name.startsWith('</script><img')), 'and shown as they are');
-  assert.match((await texts(many, '.note')).join(' '), /worst frames/);
+  assert.match((await texts(many, '.note')).join(' '), /fit into 2.0 MB/);
   const marks = await many.locator('#results .glyph path').evaluateAll((paths) => paths.map((p) => p.getAttribute('d') + p.getAttribute('style')));
   assert.equal(new Set(marks).size, marks.length, 'each preset has its own mark');
   await close(many);
