@@ -58,11 +58,11 @@ Cost CostTable::cheapest() const {
 }
 
 void judge_noise(CostTable& table) {
-  constexpr double kTime = 0.03, kMemory = 0.01;
+  constexpr double kTime = 0.03, kClock_ms = 0.01, kMemory = 0.01;
   const double ms = ms_of(table.cost), bytes = bytes_of(table.cost);
   for (CostCurve& curve : table.curves)
     for (const Measured& m : curve.costs) {
-      const double noise_ms = kTime * ms + m.spread_ms + table.cost.spread_ms;
+      const double noise_ms = kTime * ms + kClock_ms + m.spread_ms + table.cost.spread_ms;
       curve.time_varies = curve.time_varies || std::abs(ms_of(m) - ms) > noise_ms;
       curve.memory_varies = curve.memory_varies || std::abs(bytes_of(m) - bytes) > kMemory * bytes;
     }

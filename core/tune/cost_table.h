@@ -42,7 +42,7 @@ struct CostTable {
   Cost cheapest() const;
 };
 
-/// Sets `time_varies` where some median differs from the base's by more than 3 % and both spreads together, and
+/// Sets `time_varies` where some median differs from the base's by more than 3 %, 0.01 ms and both spreads together, and
 /// `memory_varies` where the bytes differ by more than 1 %.
 void judge_noise(CostTable& table);
 

@@ -38,6 +38,7 @@ class Search {
       const Cost best = best_within(options_.budget).cost;
       search_within({best.milliseconds / 2, options_.budget.bytes}, (first + all) / 2);
       search_within({best.milliseconds / 4, options_.budget.bytes}, all);
+      search_within(options_.budget, all);  // what these did not need
     }
     found_.best = best_within(options_.budget);
     found_.within_budget = options_.budget.excess(found_.best.cost) == 0;
