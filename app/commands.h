@@ -59,8 +59,10 @@ struct InspectArgs : InputArgs, PresetArgs, CommonArgs {
   bool json = false;
 };
 
-struct SheetArgs : CommonArgs {
-  std::string before, after, output, frames, hash_digits = "one";
+struct SheetArgs : InputArgs, PresetArgs, CommonArgs {
+  std::string after, output;
+  std::vector<std::string> aovs;
+  std::string preroll = kDefaultPreroll;
   int cell_width = 480;
 };
 

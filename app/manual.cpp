@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/metrics/sequence_scores.h"
+#include "core/pipeline/aov.h"
 #include "core/preset/preset.h"
 
 namespace aftershade::app {
@@ -60,6 +61,13 @@ std::string man_methods() {
   return out;
 }
 
+std::string man_aovs() {
+  std::string out;
+  for (const pipeline::AovInfo& aov : pipeline::kAovs)
+    out += cat(".TP\n", bold(aov.name), aov.is_vector ? " (.x, .y)" : "", "\n", roff(aov.doc), ".\n");
+  return out;
+}
+
 std::string man_metrics() {
   std::string out;
   for (const metrics::MetricInfo& metric : metrics::metric_infos()) {
@@ -95,6 +103,7 @@ std::string markdown_options(const std::string& command) {
 }  // namespace
 
 std::string generated_part(const std::string& name) {
+  if (name == "aovs") return man_aovs();
   if (name == "methods") return man_methods();
   if (name == "metrics") return man_metrics();
   if (name == "exit status") return man_exit_status();

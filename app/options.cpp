@@ -95,32 +95,6 @@ const std::vector<Option<InspectArgs>>& inspect_options() {
   return table;
 }
 
-const std::vector<Option<SheetArgs>>& sheet_options() {
-  static const std::vector<Option<SheetArgs>> table = [] {
-    using Args = SheetArgs;
-    std::vector<Option<Args>> t;
-    t.push_back({"before", "BEFORE", &Args::before, "the sequence before: a pattern, a frame, or a folder", {}, true});
-    t.push_back({"after",
-                 "AFTER",
-                 &Args::after,
-                 "the sequence after; the AO that render wrote into it is shown, else the producer's, if there is one",
-                 {},
-                 true});
-    t.push_back({"-o,--output", "FILE.png", &Args::output, "the picture to write", {}, true});
-    t.push_back({"--frames", "RANGE", &Args::frames, "frames to show, a row each; first, middle and last by default"});
-    t.push_back(
-        {"--cell-width", "PIXELS", &Args::cell_width, "width of one picture in the sheet", {}, false, {{16, 8192}}});
-    t.push_back({"--hash-digits",
-                 "MEANING",
-                 &Args::hash_digits,
-                 "what one # stands for: one digit, or OpenImageIO's four",
-                 {"one", "oiio"}});
-    add_common(t);
-    return t;
-  }();
-  return table;
-}
-
 const std::vector<Option<PresetsArgs>>& presets_options() {
   static const std::vector<Option<PresetsArgs>> table = {
       {"action",
@@ -172,10 +146,12 @@ const std::vector<CommandText>& command_texts() {
        texts_of(presets_options()),
        {"aftershade presets diff high-current-gen high-dx11"}},
       {"sheet",
-       "BEFORE AFTER -o FILE.png [OPTION]...",
-       "makes a contact sheet: before, AO, after",
+       "INPUT [AFTER] -o FILE.png [OPTION]...",
+       "makes a contact sheet: the intermediate results of a preset or of rendered frames, or before, AO and after",
        texts_of(sheet_options()),
-       {"aftershade sheet shot.####.exr out/ -o sheet.png --frames 1001,1010,1020"}},
+       {"aftershade sheet shot.####.exr --preset high-dx11 --frames 1010 -o sheet.png",
+        "aftershade sheet rendered.####.exr -o sheet.png",
+        "aftershade sheet shot.####.exr out/ -o sheet.png --frames 1001,1010,1020"}},
   };
   return texts;
 }

@@ -1,7 +1,9 @@
 #pragma once
+#include <cmath>
 #include <type_traits>
 
 #include "core/ao/thickness.h"
+#include "core/parallel/rows.h"
 #include "core/pipeline/stage.h"
 
 namespace aftershade::pipeline {
@@ -40,11 +42,19 @@ class AoStage final : public Stage {
     work.ao_at_pixels = params_.resolution != ao::Resolution::half;
     if (work.wants(Aov::ao_raw)) work.give(Aov::ao_raw, ao_at_pixels(work));
     if constexpr (kReadsSolids)
-      if (work.wants(Aov::thickness))
-        work.give(Aov::thickness, ao::thickness_map(params_, surface.depth, surface.projection));
+      if (work.wants(Aov::thickness)) work.give(Aov::thickness, thickness(surface));
   }
 
  private:
+  Plane thickness(const filter::Surface& surface) const {
+    Plane out = ao::thickness_map(params_, surface.depth, surface.projection);
+    for_rows(out.height(), [&](int y) {
+      for (int x = 0; x < out.width(); ++x)
+        if (!(std::isfinite(surface.depth(x, y)) && surface.depth(x, y) > 0)) out(x, y) = 0;
+    });
+    return out;
+  }
+
   static constexpr bool kReadsSolids = std::is_base_of_v<ao::DepthGeometry, Params>;
   Params params_;
   RoleSet optional_;

@@ -64,7 +64,7 @@ struct Lettering {
 };
 
 bool has_labels(const Sheet& sheet) {
-  const auto labelled = [](const Cell& cell) { return !cell.label.empty(); };
+  const auto labelled = [](const Cell& cell) { return !cell.label.empty() || !cell.legend.empty(); };
   return std::any_of(sheet.rows.begin(), sheet.rows.end(),
                      [&](const auto& row) { return std::any_of(row.begin(), row.end(), labelled); });
 }
@@ -85,9 +85,20 @@ Lettering lettering_of(const Sheet& sheet) {
   return out;
 }
 
+/// A line of a legend: a square patch of its colour with a gap of half its side around it, and text.
+int legend_line_px(const SheetStyle& style) { return style.label_size_px * 2; }
+
+PixelSize size_of(const std::vector<LegendLine>& legend, const SheetStyle& style, const std::string& font) {
+  int width = 0;
+  for (const LegendLine& line : legend)
+    width = std::max(width, legend_line_px(style) + text_width(line.text, style.label_size_px, font));
+  return {std::min(width, style.max_cell_width_px), legend_line_px(style) * static_cast<int>(legend.size())};
+}
+
 CellSize size_of(const Cell& cell, const SheetStyle& style, const Lettering& lettering) {
   CellSize out;
   if (!cell.planes.empty()) out.picture = {cell.planes[0].width(), cell.planes[0].height()};
+  if (lettering.font && cell.planes.empty()) out.picture = size_of(cell.legend, style, *lettering.font);
   if (lettering.font)
     out.label_width_px =
         std::min(text_width(cell.label, style.label_size_px, *lettering.font), style.max_cell_width_px);
@@ -108,10 +119,23 @@ SheetLayout layout_of(const Sheet& sheet, const Lettering& lettering) {
   return layout;
 }
 
-void draw_picture(OIIO::ImageBuf& canvas, const Box& box, std::vector<Plane>& planes) {
+void draw_legend(OIIO::ImageBuf& canvas, const Box& box, const std::vector<LegendLine>& legend, const SheetStyle& style,
+                 const std::string& font) {
+  const int line_px = legend_line_px(style), patch_px = line_px / 2, gap_px = (line_px - patch_px) / 2;
+  int y = box.y;
+  for (const LegendLine& line : legend) {
+    const OIIO::ROI patch(box.x, box.x + patch_px, y + gap_px, y + gap_px + patch_px, 0, 1, 0, 3);
+    OIIO::ImageBufAlgo::fill(canvas, {line.color.r, line.color.g, line.color.b}, patch);
+    draw_text(canvas, {box.x + line_px, y, box.width - line_px, line_px}, line.text, style.label_size_px, font);
+    y += line_px;
+  }
+}
+
+void draw_picture(OIIO::ImageBuf& canvas, const Box& box, Cell& cell) {
+  std::vector<Plane>& planes = cell.planes;
   if (planes.empty()) return;
   const bool rgb = planes.size() == 3;
-  if (rgb) color::to_display(std::array<PlaneView, 3>{planes[0], planes[1], planes[2]});
+  if (rgb && !cell.is_display) color::to_display(std::array<PlaneView, 3>{planes[0], planes[1], planes[2]});
   for (int y = 0; y < box.height; ++y) {
     auto* pixel = static_cast<unsigned char*>(canvas.pixeladdr(box.x, box.y + y));
     for (int x = 0; x < box.width; ++x)
@@ -129,7 +153,9 @@ OIIO::ImageBuf drawn(Sheet& sheet, const Lettering& lettering) {
     for (size_t column = 0; column < sheet.rows[row].size(); ++column) {
       Cell& cell = sheet.rows[row][column];
       const PlacedCell& place = layout.rows[row][column];
-      draw_picture(canvas, place.picture, cell.planes);
+      draw_picture(canvas, place.picture, cell);
+      if (lettering.font && cell.planes.empty())
+        draw_legend(canvas, place.picture, cell.legend, sheet.style, *lettering.font);
       if (lettering.font) draw_text(canvas, place.label, cell.label, sheet.style.label_size_px, *lettering.font);
       cell.planes.clear();
     }

@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <functional>
+#include <string_view>
 
 #include "core/filter/sample_grid.h"
 #include "core/temporal/reprojection.h"
@@ -22,6 +24,16 @@ enum class HistoryUse {
   changed_value = 8,         ///< it was found, but the value there is too different
 };
 inline constexpr int kHistoryUses = 9;
+/// What they mean in a few words, by code.
+inline constexpr std::array<std::string_view, kHistoryUses> kHistoryUseTexts{"no surface",
+                                                                             "used",
+                                                                             "stable, not asked for",
+                                                                             "there is none",
+                                                                             "motion unknown",
+                                                                             "outside the image before",
+                                                                             "another surface was there",
+                                                                             "surroundings changed",
+                                                                             "value changed"};
 constexpr float code_of(HistoryUse use) { return static_cast<float>(use); }
 
 /// What a filter by reprojection looks for its history in.

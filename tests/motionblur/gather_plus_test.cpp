@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/motionblur/gather_plus_tiles.h"
 #include "core/parallel/rows.h"
 #include "tests/motionblur/coverage.h"
 #include "tests/motionblur/moving_scene.h"
@@ -139,6 +140,41 @@ TEST(GatherPlus, EveryParameterCounts) {
   EXPECT_TRUE(differs([](auto& p) { p.least_taps = 90; }));
   EXPECT_TRUE(differs([](auto& p) { p.least_taps = p.most_taps = 8; }));
   EXPECT_TRUE(differs([](auto& p) { p.motions = 1; }));
+}
+
+// ---- what it tells of itself ----
+
+TEST(GatherPlus, TellsWhatShareOfTheExposureIsGuessed) {
+  constexpr int kLeft = 24, kRight = 71;  // moves 5 px to either side of its place
+  const MovingScene scene = make_scene({0, 0, 95, 31}, [](int x, int) {
+    return x >= kLeft && x <= kRight ? Surface{1, -20, 0, 20, 0} : Surface{2, 0, 0, 0, 0};
+  });
+  const GatherPlusParams params = with_taps(100);
+  Plane channel = copy_of(scene.channels[0]), guessed;
+  Plane* const channels[] = {&channel};
+  const motionblur::Shutter shutter = motionblur::shutter_of(params, params.shutter_frames);
+  motionblur::gather_plus(params, {&scene.motion, scene.depth, scene.window, shutter}, channels, &guessed);
+  EXPECT_TRUE(same_bits(channel, blurred(params, scene)[0])) << "the picture does not change by asking";
+  for (int x = 0; x < 96; ++x) {
+    const double inside = std::min(x - kLeft, kRight - x) + 0.5;  // from the box's edge
+    const double uncovered = inside > 0 ? std::max(0.0, 5 - inside) / 10 : 0;
+    EXPECT_NEAR(guessed(x, 16), uncovered, 0.03) << x;
+  }
+}
+
+TEST(GatherPlus, TellsTheTilesItGathersBy) {
+  const Window window{-5, 3, 90, 50};
+  const MovingScene scene = make_scene(window, [](int x, int) {
+    return x < 27 ? Surface{1, -20, 6, 20, -6} : Surface{2, 0, 0, 0, 0};  // half the way: (5, -1.5)
+  });
+  const auto tiles = motionblur::velocity_tiles(scene.motion, Path::straight, {-0.25F, 0.25F}, window);
+  const motionblur::TileGrid grid(tiles.tile_px, window);
+  for (int x = 0; x < window.width(); ++x) {
+    const int column = grid.column_of(x), tile = (x + window.min_x) >> 4;
+    EXPECT_FLOAT_EQ(tiles.own.x(column, 0), tile <= 1 ? 5 : 0) << x;
+    EXPECT_FLOAT_EQ(tiles.own.y(column, 0), tile <= 1 ? -1.5F : 0) << x;
+    EXPECT_FLOAT_EQ(tiles.neighbours.x(column, 0), tile <= 1 ? 5 : 0) << x << ": 26 + 5 is the last pixel it reaches";
+  }
 }
 
 // ---- what must hold of any blur ----

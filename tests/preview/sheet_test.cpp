@@ -176,6 +176,37 @@ TEST_F(ContactSheet, LeavesLabelsOutWithoutTheFontAndSaysSo) {
   EXPECT_EQ(png.height, 16 + 20 + 16);
 }
 
+TEST_F(ContactSheet, ShowsDisplayValuesAsTheyAre) {
+  Sheet sheet;
+  sheet.style.gap_px = 4;
+  Cell cell = color_cell(20, 10, {0.2F, 1.0F, 0.4F});
+  cell.is_display = true;
+  sheet.rows.push_back(row_of(std::move(cell)));
+  EXPECT_EQ(written(std::move(sheet)).at(13, 8), (Rgb{51, 255, 102}));
+}
+
+TEST_F(ContactSheet, DrawsLegendsAsPatchesWithText) {
+  if (font_is_missing()) GTEST_SKIP() << note_;
+  Cell legend;
+  legend.legend = {{{1, 0, 0}, "one"}, {{0, 0, 1}, "and another one"}};
+  Sheet sheet;
+  sheet.style = {.gap_px = 10, .label_size_px = 16};  // lines of 32 px with patches of 16 px in their middle
+  sheet.rows.push_back(row_of(grey_cell(40, 80, 0.5F), std::move(legend)));
+  const Png png = written(std::move(sheet));
+  const int left = 10 + 40 + 10, top = 10 + 80 - 2 * 32;
+  const auto is_patch = [&](int x, int y, Rgb color) {
+    return png.at(x, y + 8) == color && png.at(x + 15, y + 23) == color;
+  };
+  EXPECT_TRUE(is_patch(left, top, {255, 0, 0}));
+  EXPECT_TRUE(is_patch(left, top + 32, {0, 0, 255}));
+  EXPECT_EQ(png.at(left, top + 6), kBackground);
+  EXPECT_EQ(png.at(left + 17, top + 16), kBackground);
+  const int one = marked(png, left + 32, top, png.width, top + 32),
+            another = marked(png, left + 32, top + 32, png.width, top + 64);
+  EXPECT_GT(one, 30);
+  EXPECT_GT(another, 2 * one);
+}
+
 TEST_F(ContactSheet, KeepsAPlaceForACellWithoutPicture) {
   Sheet sheet;
   sheet.style.gap_px = 2;
