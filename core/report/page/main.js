@@ -11,7 +11,7 @@
     }
     const texts = runs.map(([a, b]) => (a === b ? String(a) : `${a}–${b}`));
     const text = texts.length > 6 ? `${texts.slice(0, 5).join(', ')}, …, ${texts[texts.length - 1]}` : texts.join(', ');
-    return `${text} (${numbers.length})`;
+    return numbers.length > 1 ? `${text} (${numbers.length})` : text;
   }
 
   function head() {

@@ -1,7 +1,7 @@
 // The presets' parameters side by side, and what each preset says of itself.
 
 const parameters = (() => {
-  const state = {all: false, singled: false};
+  const state = {all: report.presets.length === 1, singled: false};
   const stagesOf = (preset) => preset.preset.stages;
 
   /** Rows "stage.key" in the order of the presets' stages; each key after those that precede it in its stage. */
@@ -28,12 +28,12 @@ const parameters = (() => {
   };
   const textOf = (value) => (value === undefined ? '–' : value === '' ? 'empty' : value === true ? 'yes' : value === false ? 'no' : String(value));
 
-  /** The value that most of the presets have that have one, if several do. */
+  /** The value that more of the presets have than any other, if there is one. */
   function commonest(texts) {
     const counts = new Map();
     for (const text of texts.filter((t) => t !== '–')) counts.set(text, (counts.get(text) ?? 0) + 1);
-    const [text, count] = [...counts].reduce((best, entry) => (entry[1] > best[1] ? entry : best), [null, 0]);
-    return count > 1 ? text : null;
+    const [first, second] = [...counts].sort((a, b) => b[1] - a[1]);
+    return first && first[1] > (second ? second[1] : 1) ? first[0] : null;
   }
 
   function columnsShown() {
@@ -55,7 +55,7 @@ const parameters = (() => {
         bodies.push(el('tbody', {}, el('tr', {class: 'stage-row'}, el('th', {scope: 'rowgroup', colspan: presets.length + 1}, el('span', {}, stage.id))), lines));
     }
     if (bodies.length === 0) {
-      root.replaceChildren(el('p', {class: 'empty'}, presets.length > 1 ? 'These presets have the same parameters.' : 'There is one preset; nothing differs.'));
+      root.replaceChildren(el('p', {class: 'empty'}, 'These presets have the same parameters.'));
       return;
     }
     const heads = presets.map((preset) => el('th', {scope: 'col', title: preset.name}, el('span', {class: 'head'}, glyph(preset.index), el('span', {}, preset.name))));
@@ -78,7 +78,6 @@ const parameters = (() => {
     const bar = byId('parameters-bar');
     if (report.presets.length > 1)
       bar.append(toggleButton('Equal ones too', 'parameters-all', false, (on) => { state.all = on; draw(); }));
-    else bar.append(toggleButton('Show them', 'parameters-all', false, (on) => { state.all = on; draw(); }));
     if (report.presets.length > 2)
       bar.append(toggleButton('Only singled-out presets', 'parameters-singled', false, (on) => { state.singled = on; draw(); }));
     if (report.presets.length > 2) bar.append(el('span', {class: 'hint'}, 'Bold differs from what most have.'));

@@ -21,7 +21,7 @@ const results = (() => {
       title: `${metric.doc || titleOf(metric)} – ${direction[metric.better]}`,
       order: (preset) => badness(metric, preset.scores[metric.name]),
       cell: (preset) => {
-        const value = preset.scores[metric.name], isBest = isNumber(value) && badness(metric, value) === best;
+        const value = preset.scores[metric.name], isBest = report.presets.length > 1 && isNumber(value) && badness(metric, value) === best;
         return el('td', {class: isBest ? 'number best' : 'number', title: isBest ? 'the best of all' : null}, formatted(value));
       },
     };
@@ -94,7 +94,7 @@ const results = (() => {
   function draw() {
     const all = columns(), by = all.find((column) => column.key === state.sort) ?? nameColumn;
     const rows = sortedPresets(by).map((preset) => focusable(el('tr', {}, all.map((column) => column.cell(preset))), preset.index));
-    const table = el('table', {class: 'results'},
+    const table = el('table', {class: hasCost ? 'results full' : 'results'},
       el('thead', {}, el('tr', {}, all.map((column) => headingCell(column, column === by)))), el('tbody', {}, rows));
     byId('results-table').replaceChildren(table);
     markFocus();
