@@ -10,7 +10,7 @@ namespace aftershade::metrics {
 
 namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kFaint = 0.005;
+constexpr double kFaint = 0.01;
 
 bool is_surface(float depth) { return depth > 0 && std::isfinite(depth); }
 bool counts(ConstPlaneView mask, int x, int y) { return mask.empty() || mask(x, y) > 0.5F; }

@@ -95,7 +95,7 @@ struct Fading {
   Fading& operator+=(const Fading& other);
   AgeError fresh() const;  ///< of all ages but the settled
   /// half_life_frames() of what errors exceed the settled ones by: their means, or with `absolute` their amounts. 0
-  /// when the first exceeds by less than 0.005, which nobody sees.
+  /// when the first exceeds by less than 0.01, which nobody sees.
   double half_life(bool absolute) const;
 };
 
