@@ -80,6 +80,7 @@ export async function checkAnyPage(browser, file, name, folder) {
   await page.setViewportSize({width: 800, height: 1130});
   await settled(page);
   await page.screenshot({path: `${folder}/${name}-print.png`, fullPage: true});
+  await noSidewaysScroll(page, 'paper');
   const bars = await page.locator('.bar:visible').count();
   assert.equal(bars, 0, 'no controls on paper');
   await close(page);
