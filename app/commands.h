@@ -76,6 +76,7 @@ struct TuneArgs : InputArgs, PresetArgs, CommonArgs {
 struct CompareArgs : InputArgs, CommonArgs {
   std::vector<std::string> presets, sets, only, skip, references, metrics;
   std::string output, mask, mask_from, preroll = kDefaultPreroll, page_budget = "24M", ocio, view_transform;
+  std::string sheet, sheet_frames, sheet_region;
   std::string progress = "auto";
   bool write_frames = false, no_cost = false, no_report = false;
 };

@@ -108,9 +108,13 @@ double sum_of(const std::vector<report::StageCost>& cost) {
 /// A line a preset on stdout: the scores that most people ask for first, and the cost.
 void print_summary(const report::Comparison& comparison) {
   std::vector<std::string> columns;
-  for (const std::string_view name : {"psnr", "ssim", "ldr_flip", "ao_rmse", "ao_correlation"})
-    if (std::find(comparison.metrics.begin(), comparison.metrics.end(), name) != comparison.metrics.end())
-      columns.emplace_back(name);
+  const auto add = [&](std::initializer_list<std::string_view> names) {
+    for (const std::string_view name : names)
+      if (std::find(comparison.metrics.begin(), comparison.metrics.end(), name) != comparison.metrics.end())
+        columns.emplace_back(name);
+  };
+  add({"psnr", "ssim", "ldr_flip", "ao_rmse", "ao_correlation"});
+  if (columns.empty()) add({"flicker_unstable", "ao_flicker_unstable"});  // without a reference
   size_t width = 6;
   for (const report::Candidate& candidate : comparison.candidates)
     width = std::max(width, candidate.preset.name.size());
@@ -158,6 +162,10 @@ int compare(const CompareArgs& args) {
   comparison.view_transform = view_transform;
   comparison.threads = thread_count();
   write_reports(comparison, args, page_budget);
+  if (compared.sheet() != nullptr) {
+    const std::string note = compared.sheet()->write((fs::path(args.output) / "sheet.png").string());
+    if (!note.empty()) log().note(note);
+  }
   print_summary(comparison);
   if (stop_signal() != 0) {
     log().note(cat("stopped by a signal: the reports are of ", comparison.frames.size(), " of ", job.frames.size(),

@@ -200,6 +200,15 @@ void choose_outputs(const CompareArgs& args, CompareJob& job) {
   }
 }
 
+void choose_sheet(const CompareArgs& args, CompareJob& job) {
+  const auto makes_ao = [](const Contender& c) { return c.views.front().makes_ao(); };
+  const auto compared = job.contenders.begin() + static_cast<std::ptrdiff_t>(job.compared);
+  if (args.sheet == "ao" && std::none_of(job.contenders.begin(), compared, makes_ao))
+    throw Error(ErrorCode::usage, "--sheet ao: no preset makes AO", "--sheet color shows what they make");
+  const auto& info = job.input.source->info();
+  job.sheet = sheet_plan(args, job.frames, info.display_window, info.pixel_aspect);
+}
+
 }  // namespace
 
 CompareJob resolve_comparison(const CompareArgs& args) {
@@ -223,6 +232,7 @@ CompareJob resolve_comparison(const CompareArgs& args) {
     throw Error(ErrorCode::usage, "--mask-from without --mask", "--mask alpha, or a channel, or cryptomatte:NAME");
   }
   choose_outputs(args, job);
+  choose_sheet(args, job);
   job.preroll = preroll_of(args.preroll);
   job.pictures = !args.no_report;
   job.measure = !args.no_cost;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/compare_sheet.h"
 #include "app/job.h"
 #include "app/mask.h"
 #include "app/scored_input.h"
@@ -33,6 +34,7 @@ struct CompareJob {
   bool geometry = false;  ///< depth and motion are there for scores
   bool pictures = false;
   bool measure = false;
+  std::optional<SheetPlan> sheet;
 };
 CompareJob resolve_comparison(const CompareArgs& args);
 

@@ -39,6 +39,15 @@ void add_outcome(std::vector<Option<Args>>& t) {
   t.push_back({"--no-cost", "", &Args::no_cost,
                "measures no times and no memory: frames are read and written while others are computed"});
   t.push_back({"--no-report", "", &Args::no_report, "writes no report.html, and needs no pictures"});
+  t.push_back({"--sheet",
+               "SHOWN",
+               &Args::sheet,
+               "also writes sheet.png: every preset's result and the reference, frame beside frame",
+               {"ao", "color"}});
+  t.push_back({"--sheet-frames", "RANGE", &Args::sheet_frames,
+               "the frames of the sheet, at most 16; by default first, middle and last"});
+  t.push_back({"--sheet-region", "X,Y,WIDTHxHEIGHT", &Args::sheet_region,
+               "the pixels of the sheet, enlarged if there are few; by default the whole picture"});
   t.push_back({"--page-budget", "SIZE", &Args::page_budget, "the most that report.html may take, 24M by default"});
   t.push_back({"--ocio", "FILE", &Args::ocio,
                "an OpenColorIO configuration for the pictures; by default a built-in one for linear Rec.709"});

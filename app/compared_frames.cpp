@@ -15,6 +15,17 @@ report::Pixels pixels_of(const SidePlanes& side, bool color) {
   return {side.color[0], side.color[1], side.color[2]};
 }
 
+/// Is anything done with pixels but writing them?
+bool looks(const CompareJob& job) { return job.pictures || job.sheet || !job.metrics.empty(); }
+
+/// The compared presets, and the reference unless it is one of them.
+std::vector<std::string> names_on_sheet(const CompareJob& job) {
+  std::vector<std::string> names;
+  for (size_t i = 0; i < job.compared; ++i) names.push_back(job.contenders[i].preset.name);
+  if (!job.references.empty() || (job.reference && *job.reference >= job.compared)) names.emplace_back("reference");
+  return names;
+}
+
 /// The stages' medians over the frames, in the order of the first frame.
 std::vector<report::StageCost> median_cost(const std::vector<report::FrameResult>& frames) {
   std::vector<report::StageCost> out;
@@ -40,8 +51,7 @@ class ComparedFrames::Tap final : public FrameSource {
   std::optional<Frame> load(int number, const std::string& view, RoleSet roles, bool with_layers) override {
     if (view != frames_.job_.view) return source_.load(number, view, roles, with_layers);
     if (frames_.job_.geometry) roles.insert({Role::depth, Role::velocity_prev, Role::velocity_next});
-    auto frame =
-        source_.load(number, view, roles, with_layers || frames_.job_.pictures || !frames_.job_.metrics.empty());
+    auto frame = source_.load(number, view, roles, with_layers || looks(frames_.job_));
     if (frame) frames_.add_input(*frame);
     return frame;
   }
@@ -76,7 +86,9 @@ ComparedFrames::ComparedFrames(const CompareJob& job, const report::ShowOptions&
     : job_(job), tap_(std::make_unique<Tap>(*this, *job.input.source)), frames_(job.compared), memory_(job.compared) {
   if (!job.metrics.empty())
     for (size_t i = 0; i < job.compared; ++i) scorers_.emplace_back(job.metrics);
-  if (job.pictures) worst_.emplace(job.input.source->info().display_window, show);
+  const Window display = job.input.source->info().display_window;
+  if (job.pictures) worst_.emplace(display, show);
+  if (job.sheet) sheet_.emplace(*job.sheet, display, names_on_sheet(job));
 }
 ComparedFrames::~ComparedFrames() = default;
 
@@ -87,7 +99,7 @@ std::unique_ptr<FrameSink> ComparedFrames::sink(size_t contender, FrameSink* fil
 }
 
 void ComparedFrames::add_input(const Frame& frame) {
-  if (job_.metrics.empty() && !job_.pictures) return;
+  if (!looks(job_)) return;
   const std::lock_guard lock(mutex_);
   const bool follows = before_ && before_->number == frame.number - 1;
   if (std::binary_search(job_.frames.begin(), job_.frames.end(), frame.number)) {
@@ -146,6 +158,14 @@ void ComparedFrames::finish(int number, Waiting& waiting) {
         scorers_[i].add(scored_frame(number, *waiting.results[i], has_reference ? &reference : nullptr,
                                      job_.geometry ? &waiting.geometry : nullptr, mask));
   if (worst_) show(number, waiting, reference);
+  if (sheet_ && sheet_->wants(number)) add_to_sheet(number, waiting, reference);
+}
+
+void ComparedFrames::add_to_sheet(int number, const Waiting& waiting, const SidePlanes& reference) {
+  std::vector<report::Pixels> pictures;
+  for (size_t i = 0; i < job_.compared; ++i) pictures.push_back(pixels_of(*waiting.results[i], sheet_->shows_color()));
+  pictures.push_back(pixels_of(reference, sheet_->shows_color()));
+  sheet_->add(number, pictures);
 }
 
 void ComparedFrames::show(int number, const Waiting& waiting, const SidePlanes& reference) {

@@ -26,6 +26,9 @@ class ComparedFrames {
   /// A frame that is finished costs this much.
   void add_cost(const pipeline::Progress& progress);
 
+  /// The sheet that the job asks for, else null.
+  ComparisonSheet* sheet() { return sheet_ ? &*sheet_ : nullptr; }
+
   /// The frames that all have finished. Leaves nothing.
   report::Comparison take();
 
@@ -43,6 +46,7 @@ class ComparedFrames {
   void finish(int number, Waiting& waiting);
   SidePlanes reference_of(int number, const Waiting& waiting) const;
   void show(int number, const Waiting& waiting, const SidePlanes& reference);
+  void add_to_sheet(int number, const Waiting& waiting, const SidePlanes& reference);
 
   const CompareJob& job_;
   std::mutex mutex_;
@@ -51,6 +55,7 @@ class ComparedFrames {
   std::map<int, Waiting> waiting_;
   std::vector<metrics::SequenceScorer> scorers_;
   std::optional<report::WorstFrames> worst_;
+  std::optional<ComparisonSheet> sheet_;
   std::vector<std::map<int, report::FrameResult>> frames_;  ///< one map a compared preset
   std::vector<int64_t> memory_;
 };
