@@ -44,7 +44,7 @@ function scaleOf(values, from, to, {log = false, air = 0.06, ticks = 5} = {}) {
 function tickText(value, ticks) {
   const step = ticks.length > 1 ? Math.abs(ticks[1] - ticks[0]) : Math.abs(value) || 1;
   if (value === 0) return '0';
-  if (Math.abs(value) >= 1e5 || Math.abs(value) < 1e-4) return value.toExponential(0).replace('-', '−');
+  if (Math.abs(value) >= 1e7 || Math.abs(value) < 1e-4) return value.toExponential(0).replace('-', '−');
   const digits = Math.max(0, Math.min(6, Math.ceil(-Math.log10(Math.min(step, Math.abs(value))) - 1e-9)));
   return value.toFixed(digits).replace('-', '−');
 }
