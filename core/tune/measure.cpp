@@ -18,11 +18,10 @@ double median(std::vector<double> values) {
 using Samples = std::vector<Cost>;
 
 Measured summary(const Samples& costs) {
-  std::vector<double> ms, bytes, deviations;
+  std::vector<double> ms, bytes;
   for (const Cost& cost : costs) ms.push_back(cost.milliseconds), bytes.push_back(cost.bytes);
-  const double middle = median(ms);
-  for (const double value : ms) deviations.push_back(std::abs(value - middle));
-  return {{middle, median(bytes)}, median(deviations)};
+  std::ranges::sort(ms);
+  return {{median(ms), median(bytes)}, ms[0], ms[1] - ms[0]};
 }
 
 template <class Preset>

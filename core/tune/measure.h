@@ -28,7 +28,7 @@ preset::Preset with_values(const preset::Preset& preset, const std::string& stag
 /// The preset's own values of them.
 std::vector<double> values_of(const preset::Preset& preset, const std::string& stage, const Axes& axes);
 
-/// Median and spread of each preset's cost over several rounds, in each of which all take their turn, beginning with
+/// What each preset costs over several rounds, in each of which all take their turn, beginning with
 /// another one. `on_round` is told how many rounds are done; nullopt when the trial's should_stop() says so.
 std::optional<std::vector<Measured>> measure_in_turn(const Trial& trial, const std::vector<preset::Preset>& presets,
                                                      const std::string& stage, int frame,
