@@ -74,7 +74,9 @@ void expect_within(const Plane& plane, const Bounds& bounds, const std::string& 
       const float value = plane(x, y);
       ASSERT_TRUE(value >= bounds.least - kRounding && value <= bounds.most + kRounding)  // false for NaN
           << name << " (" << x << ", " << y << "): " << value;
-      if (bounds.whole) ASSERT_EQ(value, std::round(value)) << name;
+      if (bounds.whole) {
+        ASSERT_EQ(value, std::round(value)) << name;
+      }
     }
 }
 
