@@ -42,7 +42,7 @@ Json json_of(const TuneJob& job, const tune::Candidate& candidate, const std::op
   if (holdout) out["holdout_score"] = number(*holdout);
   if (measured) {
     out["measured"] = json_of(measured->cost);
-    out["measured"]["fastest_milliseconds"] = number(measured->fastest_ms);
+    out["measured"]["spread_milliseconds"] = number(measured->spread_ms);
   }
   return out;
 }

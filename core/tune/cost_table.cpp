@@ -10,7 +10,7 @@ namespace aftershade::tune {
 
 namespace {
 
-double ms_of(const Measured& measured) { return measured.fastest_ms; }
+double ms_of(const Measured& measured) { return measured.cost.milliseconds; }
 double bytes_of(const Measured& measured) { return measured.cost.bytes; }
 
 /// log2 of the cost at `value`, interpolated between the curve's.

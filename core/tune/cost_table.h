@@ -9,12 +9,11 @@
 /// What a stage costs at other values of its parameters, measured once: a search over it is the same every time.
 namespace aftershade::tune {
 
-/// Of repeated measurements: the medians, the fastest, and how much slower the second fastest was. Whatever else a
-/// machine does only ever adds time, so the fastest is what tells settings apart (Chen and Revels, "Robust benchmarking
-/// in noisy environments", 2016), and the median what is to be expected.
+/// Of repeated measurements: the lower quartile of the time (whatever else a machine does only ever adds to it), how
+/// far the median lies above it, and the median of the memory.
 struct Measured {
   Cost cost;
-  double fastest_ms = 0, spread_ms = 0;
+  double spread_ms = 0;
 };
 
 /// A parameter at several values, all others as in the table's base.
@@ -35,7 +34,7 @@ struct CostTable {
   Measured cost;  ///< of the base
   std::vector<CostCurve> curves;
 
-  /// The base's cost times, for each curve, the ratio (of fastest times) at the parameter's value to that at the
+  /// The base's cost times, for each curve, the ratio at the parameter's value to that at the
   /// base's: interpolated in the logarithm of the ratio over the logarithm of the value (over the value, where some is
   /// not positive), constant beyond the ends. Parameters that `values` does not name are as in the base; a curve that
   /// does not vary counts as 1.
@@ -44,7 +43,7 @@ struct CostTable {
   Cost cheapest() const;
 };
 
-/// Sets `time_varies` where some fastest time differs from the base's by more than 3 %, 0.01 ms and both spreads
+/// Sets `time_varies` where some time differs from the base's by more than 3 %, 0.01 ms and both spreads
 /// together, and `memory_varies` where the bytes differ by more than 1 %.
 void judge_noise(CostTable& table);
 

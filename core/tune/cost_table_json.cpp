@@ -13,16 +13,14 @@ using params::Json;
 
 Json json_of(const Measured& measured) {
   return {{"milliseconds", measured.cost.milliseconds},
-          {"fastest_milliseconds", measured.fastest_ms},
           {"spread_milliseconds", measured.spread_ms},
           {"bytes", measured.cost.bytes}};
 }
 
 Measured measured_of(const Json& json) {
   const Measured out{{json.at("milliseconds").get<double>(), json.at("bytes").get<double>()},
-                     json.at("fastest_milliseconds").get<double>(),
                      json.at("spread_milliseconds").get<double>()};
-  if (!(out.cost.milliseconds > 0 && out.fastest_ms > 0 && out.cost.bytes > 0 && out.spread_ms >= 0))
+  if (!(out.cost.milliseconds > 0 && out.cost.bytes > 0 && out.spread_ms >= 0))
     throw Error(ErrorCode::config, "a cost is not positive");
   return out;
 }

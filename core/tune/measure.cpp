@@ -10,9 +10,10 @@ namespace aftershade::tune {
 
 namespace {
 
-double median(std::vector<double> values) {
+/// The value that this share of the others is below.
+double quantile(std::vector<double> values, double share) {
   std::ranges::sort(values);
-  return values[values.size() / 2];
+  return values[static_cast<size_t>(share * static_cast<double>(values.size()))];
 }
 
 using Samples = std::vector<Cost>;
@@ -20,8 +21,8 @@ using Samples = std::vector<Cost>;
 Measured summary(const Samples& costs) {
   std::vector<double> ms, bytes;
   for (const Cost& cost : costs) ms.push_back(cost.milliseconds), bytes.push_back(cost.bytes);
-  std::ranges::sort(ms);
-  return {{median(ms), median(bytes)}, ms[0], ms[1] - ms[0]};
+  const double quartile = quantile(ms, 0.25);
+  return {{quartile, quantile(bytes, 0.5)}, quantile(ms, 0.5) - quartile};
 }
 
 template <class Preset>

@@ -20,7 +20,7 @@ struct Subject {
 /// At least so many rounds, and more, up to so many, as long as all together take less than that: what is short is
 /// measured more often.
 inline constexpr int kFewestRounds = 5, kMostRounds = 100;
-inline constexpr double kRoundsSeconds = 3;
+inline constexpr double kRoundsSeconds = 5;
 
 /// The preset with other values of the stage's parameters, an axis each.
 preset::Preset with_values(const preset::Preset& preset, const std::string& stage, const Axes& axes,

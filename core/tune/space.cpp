@@ -33,7 +33,7 @@ Axis axis_of(const params::Record& record, double value, std::optional<params::R
       fail(where, record, cat(" is ", value, " in the preset, from where no factor leads anywhere"),
            cat("give the range to search, such as ", record.key, "=0:1"));
     bounds = {std::max(record.range.min, value / kReach), std::min(record.range.max, value * kReach)};
-    if (integer) bounds->min = std::max(record.range.min, std::floor(bounds->min));
+    if (integer) bounds->min = std::max({record.range.min, std::floor(bounds->min), 1.0});  // 0 would be a switch
   }
   if (bounds->min < record.range.min || bounds->max > record.range.max)
     fail(where, record, cat(": ", bounds->min, " to ", bounds->max, " leaves its range ", params::domain_text(record)),

@@ -10,9 +10,7 @@
 namespace aftershade::tune {
 namespace {
 
-Measured ms(double milliseconds, double spread = 0, double bytes = 1000) {
-  return {{milliseconds, bytes}, milliseconds, spread};
-}
+Measured ms(double milliseconds, double spread = 0, double bytes = 1000) { return {{milliseconds, bytes}, spread}; }
 
 /// Taps cost what they are, the radius nothing, frames memory.
 CostTable table() {
@@ -64,14 +62,6 @@ TEST(CostTable, InterpolatesRatiosInLogarithmsAndMultipliesThem) {
       << "linear in the value where it is 0";
   EXPECT_DOUBLE_EQ(t.predict({{"taps", 1}}).milliseconds, 1) << "constant beyond the ends";
   EXPECT_DOUBLE_EQ(t.predict({{"taps", 100}}).milliseconds, 16);
-}
-
-TEST(CostTable, TheMedianTellsTheLevelAndTheFastestTheRatios) {
-  CostTable t = table();
-  t.cost.cost.milliseconds = 6;                // a busy machine
-  t.curves[0].costs[0].cost.milliseconds = 6;  // as busy then
-  EXPECT_DOUBLE_EQ(t.predict({}).milliseconds, 6);
-  EXPECT_DOUBLE_EQ(t.predict({{"taps", 2}}).milliseconds, 1.5);
 }
 
 TEST(CostTable, TheCheapestIsTheLeastOfEachCurve) {

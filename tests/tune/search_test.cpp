@@ -105,6 +105,7 @@ TEST(Space, WithoutBoundsItReachesAFactorAroundTheValue) {
   EXPECT_EQ(axis_of(number, 5, {}, "p"), real("k", 1.25, 10));
   EXPECT_EQ(axis_of(integer, 9, {}, "p"), whole("k", 2, 36));
   EXPECT_EQ(axis_of(integer, 1, {}, "p"), whole("k", 1, 4));
+  EXPECT_EQ(axis_of(record(params::Kind::integer, 0, 64), 3, {}, "p"), whole("k", 1, 12)) << "0 may be a switch";
   EXPECT_EQ(axis_of(number, 1, {{0, 2}}, "p"), real("k", 0, 2));
 }
 
