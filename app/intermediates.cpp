@@ -89,7 +89,7 @@ CellGroup velocity_cells(ConstPlaneView x, ConstPlaneView y, const std::string& 
   const float longest = preview::longest_of(x, y);
   CellGroup group;
   group.push_back(
-      cell_of(preview::wheel(x, y, longest), cat(name, ": longest ", number_text(longest), " px"), frame, true));
+      cell_of(preview::wheel(x, y, longest), cat(name, ": longest ", fixed(longest, 1), " px"), frame, true));
   return group;
 }
 

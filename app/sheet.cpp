@@ -169,6 +169,7 @@ preview::Sheet of_preset(const SheetArgs& args) {
   run.written = frames_of(args, input);
   run.on_disk = input.found.sequence.frames();
   run.preroll = preroll_of(args.preroll);
+  run.frames_in_flight = 1;  // the sink reads frames too, and what that notes goes to the log at once
   run.on_progress = [](const pipeline::Progress& progress) {
     for (const pipeline::FrameReport& report : progress.reports) {
       for (const std::string& note : report.notes) log().note(note);

@@ -163,17 +163,21 @@ TEST(GatherPlus, TellsWhatShareOfTheExposureIsGuessed) {
 }
 
 TEST(GatherPlus, TellsTheTilesItGathersBy) {
-  const Window window{-5, 3, 90, 50};
-  const MovingScene scene = make_scene(window, [](int x, int) {
-    return x < 27 ? Surface{1, -20, 6, 20, -6} : Surface{2, 0, 0, 0, 0};  // half the way: (5, -1.5)
-  });
-  const auto tiles = motionblur::velocity_tiles(scene.motion, Path::straight, {-0.25F, 0.25F}, window);
-  const motionblur::TileGrid grid(tiles.tile_px, window);
-  for (int x = 0; x < window.width(); ++x) {
-    const int column = grid.column_of(x), tile = (x + window.min_x) >> 4;
-    EXPECT_FLOAT_EQ(tiles.own.x(column, 0), tile <= 1 ? 5 : 0) << x;
-    EXPECT_FLOAT_EQ(tiles.own.y(column, 0), tile <= 1 ? -1.5F : 0) << x;
-    EXPECT_FLOAT_EQ(tiles.neighbours.x(column, 0), tile <= 1 ? 5 : 0) << x << ": 26 + 5 is the last pixel it reaches";
+  constexpr Window window{-5, 3, 90, 50};
+  constexpr int kReached = 2;  // what moves 5 px in tile 1 may reach the next one, wherever in its tile it is
+  for (const int edge : {25, 31}) {
+    const MovingScene scene = make_scene(window, [edge](int x, int) {
+      return x < edge ? Surface{1, -20, 6, 20, -6} : Surface{2, 0, 0, 0, 0};  // half the way: (5, -1.5)
+    });
+    const auto tiles = motionblur::velocity_tiles(scene.motion, Path::straight, {-0.25F, 0.25F}, window);
+    const motionblur::TileGrid grid(tiles.tile_px, window);
+    for (int x = 0; x < window.width(); ++x) {
+      const int column = grid.column_of(x), tile = (x + window.min_x) >> 4;
+      EXPECT_FLOAT_EQ(tiles.own.x(column, 0), tile <= 1 ? 5 : 0) << x;
+      EXPECT_FLOAT_EQ(tiles.own.y(column, 0), tile <= 1 ? -1.5F : 0) << x;
+      EXPECT_FLOAT_EQ(tiles.neighbours.x(column, 0), tile <= kReached ? 5 : 0) << x;
+      EXPECT_FLOAT_EQ(tiles.neighbours.y(column, 0), tile <= kReached ? -1.5F : 0) << x;
+    }
   }
 }
 

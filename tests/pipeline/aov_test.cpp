@@ -156,8 +156,8 @@ std::string message_of(const std::vector<std::string>& names, AovSet offered) {
 
 TEST(AovNames, WhatIsUnknownOrNotOfferedIsSaidWithWhatThereIs) {
   const AovSet offered{Aov::ao_raw, Aov::mask};
-  const std::string misspelt = message_of({"maks"}, offered), missing = message_of({"guessed"}, offered);
-  EXPECT_NE(misspelt.find("there is no AOV \"maks\""), std::string::npos) << misspelt;
+  const std::string misspelt = message_of({"masks"}, offered), missing = message_of({"guessed"}, offered);
+  EXPECT_NE(misspelt.find("there is no AOV \"masks\""), std::string::npos) << misspelt;
   EXPECT_NE(misspelt.find("did you mean \"mask\"?"), std::string::npos) << misspelt;
   EXPECT_NE(missing.find("no stage of the preset has the AOV guessed"), std::string::npos) << missing;
   EXPECT_NE(missing.find("ao_raw, mask"), std::string::npos) << missing;
