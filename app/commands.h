@@ -78,7 +78,7 @@ struct CompareArgs : InputArgs, CommonArgs {
   std::string output, mask, mask_from, preroll = kDefaultPreroll, page_budget = "24M", ocio, view_transform;
   std::string sheet, sheet_frames, sheet_region;
   std::string progress = "auto";
-  bool write_frames = false, no_cost = false, no_report = false;
+  bool write_frames = false, ao = false, no_cost = false, no_report = false;
 };
 
 struct PresetsArgs {

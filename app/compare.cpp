@@ -115,12 +115,13 @@ void print_summary(const report::Comparison& comparison) {
   };
   add({"psnr", "ssim", "ldr_flip", "ao_rmse", "ao_correlation"});
   if (columns.empty()) add({"flicker_unstable", "ao_flicker_unstable"});  // without a reference
+  const bool cost = !comparison.candidates.front().cost.empty();
+  if (columns.empty() && !cost) return;
   size_t width = 6;
   for (const report::Candidate& candidate : comparison.candidates)
     width = std::max(width, candidate.preset.name.size());
   std::printf("%-*s", static_cast<int>(width), "preset");
   for (const std::string& column : columns) std::printf("  %9s", column.c_str());
-  const bool cost = !comparison.candidates.front().cost.empty();
   std::printf("%s\n", cost ? "   ms/frame         MB" : "");
   for (const report::Candidate& candidate : comparison.candidates) {
     std::printf("%-*s", static_cast<int>(width), candidate.preset.name.c_str());
@@ -152,7 +153,8 @@ int compare(const CompareArgs& args) {
   show.pixel_aspect = job.input.source->info().pixel_aspect;
   const std::string view_transform = job.pictures ? preview::view_name(show.display) : "";
   log().note(cat(job.input.found.pattern.text(), ": profile ", job.input.producer.profile.name, " (",
-                 job.input.producer.why, "), ", job.compared, " presets, frames ", io::format_frames(job.frames)));
+                 job.input.producer.why, "), ", job.compared, job.compared == 1 ? " preset" : " presets", ", frames ",
+                 io::format_frames(job.frames)));
   fs::create_directories(args.output);
   ComparedFrames compared(job, show);
   run_all(job, args, compared);

@@ -123,14 +123,14 @@ std::vector<std::string> named_channels(const std::vector<preset::Preset>& prese
   return names;
 }
 
-Contender contender_of(const preset::Preset& preset, const Input& input) {
+Contender contender_of(const preset::Preset& preset, const Input& input, const std::optional<std::string>& ao_channel) {
   Contender out{preset, {}, {}};
   for (const std::string& view : input.views)
     with_context("preset " + preset.name, [&] {
       pipeline::Outputs outputs;
       pipeline::ViewPipeline stages(preset, view, offer_of(input, view), outputs);
-      if (stages.makes_ao()) {
-        outputs.ao_channel = kOwnAoChannel;
+      if (ao_channel && stages.makes_ao()) {
+        outputs.ao_channel = ao_channel;
         stages = pipeline::ViewPipeline(preset, view, offer_of(input, view), outputs);
       }
       if (stages.layers(stages.stages())) input.source->check_layers_and_named(view);
@@ -212,6 +212,8 @@ void choose_sheet(const CompareArgs& args, CompareJob& job) {
 }  // namespace
 
 CompareJob resolve_comparison(const CompareArgs& args) {
+  if (args.ao && !args.write_frames)
+    throw Error(ErrorCode::usage, "--ao says what frames have, and none are written", "add --write-frames");
   CompareJob job;
   std::vector<preset::Preset> presets = load_all(args);
   open_references(args, presets, job);
@@ -221,7 +223,11 @@ CompareJob resolve_comparison(const CompareArgs& args) {
   if (!args.write_frames) job.input.views.resize(1);
   if (job.input.source->views().size() > 1 && args.views.size() != 1)
     log().note(cat(args.input, " has several views: view ", job.view, " is compared"));
-  for (const preset::Preset& preset : presets) job.contenders.push_back(contender_of(preset, job.input));
+  const bool only_writes = args.no_report && args.sheet.empty() && contains(args.metrics, "none");
+  job.write_ao = args.write_frames && args.ao;
+  if (job.write_ao || !only_writes) job.ao_channel = ao_channel_for(job.input.source->info());
+  for (const preset::Preset& preset : presets)
+    job.contenders.push_back(contender_of(preset, job.input, job.ao_channel));
   choose_frames(args, job);
   choose_metrics(args, job);
   if (!args.mask.empty()) {

@@ -28,7 +28,9 @@ struct CompareJob {
   std::vector<ScoredSide> references;  ///< or sequences: the first with colour, the first with AO
   std::string reference_text;          ///< for people; "": none
   std::optional<MaskReader> mask;
-  std::vector<std::string> metrics;  ///< none: nothing is scored
+  std::optional<std::string> ao_channel;  ///< where contenders leave their AO, if anybody looks at it
+  bool write_ao = false;                  ///< files have that channel too
+  std::vector<std::string> metrics;       ///< none: nothing is scored
   std::vector<int> frames;
   int preroll = 40;
   bool geometry = false;  ///< depth and motion are there for scores

@@ -36,6 +36,8 @@ void add_comparison(std::vector<Option<Args>>& t) {
 
 void add_outcome(std::vector<Option<Args>>& t) {
   t.push_back({"--write-frames", "", &Args::write_frames, "also writes every preset's frames, to DIR/PRESET/"});
+  t.push_back({"--ao", "", &Args::ao,
+               "with --write-frames: they have the AO as channel AO, as those of render --ao (half, 1 = open)"});
   t.push_back({"--no-cost", "", &Args::no_cost,
                "measures no times and no memory: frames are read and written while others are computed"});
   t.push_back({"--no-report", "", &Args::no_report, "writes no report.html, and needs no pictures"});

@@ -68,12 +68,12 @@ class ComparedFrames::Sink final : public FrameSink {
   void write(int number, const std::vector<Frame>& views) override {
     frames_.add_result(contender_, number, views.front());
     if (!files_) return;
-    std::vector<Frame> without_ao;
+    std::vector<Frame> written;
     for (const Frame& view : views) {
-      without_ao.push_back(shared(view));
-      without_ao.back().added.erase(kOwnAoChannel);
+      written.push_back(shared(view));
+      if (!frames_.job_.write_ao) written.back().added.erase(frames_.ao_channel());
     }
-    files_->write(number, without_ao);
+    files_->write(number, written);
   }
 
  private:
@@ -120,7 +120,7 @@ void ComparedFrames::add_result(size_t contender, int number, const Frame& frame
   if (contender < job_.compared) frames_[contender][number].number = number;
   const auto found = waiting_.find(number);
   if (found == waiting_.end()) return;
-  const auto ao = frame.added.find(kOwnAoChannel);
+  const auto ao = frame.added.find(ao_channel());
   Waiting& waiting = found->second;
   waiting.results[contender] = side_planes(frame, ao == frame.added.end() ? Plane() : ao->second.shared(),
                                            *job_.input.found.sequence.path(number));

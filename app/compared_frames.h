@@ -41,6 +41,7 @@ class ComparedFrames {
     std::vector<std::optional<SidePlanes>> results;
     size_t done = 0;
   };
+  std::string ao_channel() const { return job_.ao_channel.value_or(""); }
   void add_input(const Frame& frame);
   void add_result(size_t contender, int number, const Frame& frame);
   void finish(int number, Waiting& waiting);

@@ -97,13 +97,6 @@ void plan_memory(const RenderArgs& args, Job& job) {
   log().detail(cat("up to ", job.frames_in_flight, " frames at once, ", size_text(peak), " of ", size_text(limit)));
 }
 
-/// "AO", or kOwnAoChannel in a file that has either in any view.
-std::string ao_channel_for(const io::FileInfo& info) {
-  for (const std::string& view : io::views_of(info))
-    if (has_channel(info, view, "AO") || has_channel(info, view, kOwnAoChannel)) return kOwnAoChannel;
-  return "AO";
-}
-
 pipeline::Outputs outputs_of(const RenderArgs& args, const preset::Preset& preset, const io::FileInfo& info) {
   pipeline::Outputs outputs;
   if (args.ao || args.ao_only) outputs.ao_channel = ao_channel_for(info);
@@ -166,6 +159,12 @@ void check_not_input(const Input& input, const std::vector<int>& written,
       throw Error(ErrorCode::usage, cat("the output ", output_path(frame), " is the input frame ", source->second),
                   "write to another folder or another name");
   }
+}
+
+std::string ao_channel_for(const io::FileInfo& info) {
+  for (const std::string& view : io::views_of(info))
+    if (has_channel(info, view, "AO") || has_channel(info, view, kOwnAoChannel)) return kOwnAoChannel;
+  return "AO";
 }
 
 bool has_channel(const io::FileInfo& info, const std::string& view, const std::string& name) {

@@ -38,6 +38,9 @@ inline constexpr const char* kOwnAoChannel = "aftershade.AO";
 /// Does a view of the file have this channel, its view token aside?
 bool has_channel(const io::FileInfo& info, const std::string& view, const std::string& name);
 
+/// What the AO is called in files made from one like this: "AO", or kOwnAoChannel where any view has either.
+std::string ao_channel_for(const io::FileInfo& info);
+
 /// What the first frame of a view offers to the stages.
 pipeline::Offer offer_of(const Input& input, const std::string& view);
 

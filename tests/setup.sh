@@ -1,6 +1,7 @@
 #!/bin/sh
 # Sets the project up on Debian 12: installs the packages that are missing, configures, builds. Both commands of the README
-# start with it and share its build folder, build/. Arguments are CMake targets; without any everything is built.
+# start with it and share its build folder, build/. Arguments are CMake targets; without any everything is built, and what
+# tests hold results against is installed too.
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -8,6 +9,13 @@ cd "$(dirname "$0")/.."
 packages="g++ cmake ninja-build pkg-config
   libopenexr-dev libopenimageio-dev openimageio-tools libopencolorio-dev libcli11-dev nlohmann-json3-dev
   libtbb-dev libhwy-dev libdeflate-dev zlib1g-dev libgtest-dev libbenchmark-dev fonts-dejavu-core"
+
+# scikit-image is an independent measure; a browser, driven by node, opens the report page.
+if [ $# -eq 0 ]; then
+  packages="$packages python3-skimage"
+  command -v chromium >/dev/null || packages="$packages chromium"
+  command -v npm >/dev/null || packages="$packages npm"
+fi
 
 missing=""
 for package in $packages; do

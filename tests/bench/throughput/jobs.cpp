@@ -28,9 +28,10 @@ void empty_folder(const fs::path& folder) {
   fs::create_directories(folder);
 }
 
+/// Also in folders within.
 std::vector<fs::path> finished_files(const fs::path& folder) {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder))
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (entry.path().extension() == ".exr") files.push_back(entry.path());
   return files;
 }
@@ -78,11 +79,12 @@ void Jobs::run_once(const Job& job) {
   record.runs.push_back(throughput::run(job.commands, log_));
   if (job.out.empty()) return;
   const std::vector<fs::path> files = finished_files(job.out);
-  if (files.size() != static_cast<size_t>(job.frames))
-    throw std::runtime_error(cat(job.name, ": ", files.size(), " files instead of ", job.frames));
+  const int expected = job.files.value_or(job.frames);
+  if (files.size() != static_cast<size_t>(expected))
+    throw std::runtime_error(cat(job.name, ": ", files.size(), " files instead of ", expected));
   double bytes = 0;
   for (const fs::path& file : files) bytes += static_cast<double>(fs::file_size(file));
-  record.packed_bytes = bytes / job.frames;
+  if (!files.empty()) record.packed_bytes = bytes / static_cast<double>(files.size());
 }
 
 void Jobs::run(const std::vector<Job>& jobs, int repetitions) {

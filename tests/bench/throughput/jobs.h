@@ -15,8 +15,9 @@ struct Job {
   std::string name;
   std::vector<Command> commands;
   std::filesystem::path out;              ///< folder for what they write, emptied before and after; empty: none
-  int frames = 1;                         ///< that all commands write together
+  int frames = 1;                         ///< that all commands work on together
   std::function<void()> check = nullptr;  ///< of the first run's files; throws when they are wrong
+  std::optional<int> files{};             ///< that they write; as many as frames by default
 };
 
 /// Times of a job, run after run.

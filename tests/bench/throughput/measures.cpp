@@ -40,6 +40,11 @@ void add_jobs(Table& table) {
   table.add_ratio("whole job against --recode", kWhole, kRecode, at_most(1.8));
 }
 
+void add_comparison(Table& table) {
+  table.add_ratio("compare of six presets, frames written, against six jobs", kCompareWritten, kSixJobs, at_most(0.9));
+  table.add_ratio("compare of six presets, no frames, against six jobs", kCompareAlone, kSixJobs, at_most(0.45));
+}
+
 void add_sizes(Table& table, const Jobs& jobs, double packed_bytes) {
   const std::string measure = "output size of --recode against OpenEXR's own ZIP";
   if (!jobs.has(kRecode)) return table.add({measure, "", {}, {}, at_most(1), cat("not available: ", kRecode)});
@@ -130,6 +135,7 @@ std::vector<Row> measures(const Jobs& jobs, const params::Json& stages, const pa
                           double packed_bytes) {
   Table table(jobs);
   add_jobs(table);
+  add_comparison(table);
   add_sizes(table, jobs, packed_bytes);
   add_kernels(table, kernels);
   add_threads_and_sizes(table, jobs);

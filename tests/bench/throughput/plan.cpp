@@ -133,10 +133,46 @@ std::vector<Job> Plan::disk_jobs() const {
   return jobs;
 }
 
+/// Six presets by a job each, one after the other, and by one that reads every frame once.
+std::vector<Job> Plan::compare_jobs() const {
+  const std::vector<std::string> presets{"low-current-gen", "high-current-gen", "ultra-current-gen",
+                                         "low-dx11",        "high-dx11",        "ultra-dx11"};
+  const fs::path out = work_ / "out", script = work_ / "six.sh";
+  const std::string threads = std::to_string(options_.cores);
+  std::ofstream lines(script);
+  lines << "set -e\n";
+  for (const std::string& preset : presets) {
+    lines << "mkdir -p '" << (out / preset).string() << "'\n";
+    for (const std::string& word : render(frames_, out / preset, {"--preset", preset, "--threads", threads}))
+      lines << "'" << word << "' ";
+    lines << "\n";
+  }
+  Command compare{program_,
+                  "compare",
+                  frames_.folder / "in.####.exr",
+                  "-o",
+                  out,
+                  "-p",
+                  join(presets, ","),
+                  "--metric",
+                  "none",
+                  "--no-report",
+                  "--no-cost",
+                  "-q"};
+  compare.insert(compare.end(), {"--progress", "none", "--threads", threads});
+  Command written = compare;
+  written.emplace_back("--write-frames");
+  const int frames = frames_.frames * static_cast<int>(presets.size());
+  Job alone{kCompareAlone, {compare}, out, frames};
+  alone.files = 0;
+  return {{kSixJobs, {{"sh", script}}, out, frames}, {kCompareWritten, {written}, out, frames}, alone};
+}
+
 void Plan::run(Jobs& jobs) const {
   const Job version{kVersion, {{program_, "--version"}}, {}};
   jobs.run({version, whole(kOneFrame, one_, {})}, options_.quick_repetitions);
   jobs.run(main_jobs(), options_.repetitions);
+  jobs.run(compare_jobs(), options_.repetitions);
   if (!options_.disk.empty()) jobs.run(disk_jobs(), options_.repetitions);
   if (options_.memory_frames > 0) jobs.run_and_drop_files(whole(kMemory, many_, {}));
   if (!options_.offline) return;

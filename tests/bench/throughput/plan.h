@@ -26,6 +26,9 @@ inline constexpr const char* kDisk = "high-dx11 to disk";
 inline constexpr const char* kDiskNoFsync = "high-dx11 to disk --fsync off";
 inline constexpr const char* kMemory = "high-dx11, many frames";
 inline constexpr const char* kOffline = "offline";
+inline constexpr const char* kSixJobs = "six presets, a job each";
+inline constexpr const char* kCompareWritten = "compare of six presets, frames written";
+inline constexpr const char* kCompareAlone = "compare of six presets";
 
 /// Makes the frames and runs everything in folder `work`. Heavy work happens in child processes, this program again
 /// among them: what a child's peak of memory begins with is its parent's.
@@ -46,6 +49,7 @@ class Plan {
   Job copies(const std::string& name, int processes) const;
   std::vector<Job> main_jobs() const;
   std::vector<Job> disk_jobs() const;
+  std::vector<Job> compare_jobs() const;
   bool offers(const std::string& option) const;
   void make(const FrameSet& set) const;
   params::Json json_of(Command command, const std::string& name) const;
