@@ -33,13 +33,15 @@ std::optional<Error> error_of(const DisplayOptions& options) {
   return std::nullopt;
 }
 
-/// A file in the test's folder that goes with the object.
+/// A file in a folder of its own, since tests run side by side, that goes with the object.
 class ConfigFile {
  public:
-  explicit ConfigFile(const std::string& text) : path_((fs::path(testing::TempDir()) / "view_test.ocio").string()) {
+  explicit ConfigFile(const std::string& text) {
+    std::string folder = (fs::path(testing::TempDir()) / "view_test.XXXXXX").string();
+    path_ = std::string(mkdtemp(folder.data())) + "/view_test.ocio";
     std::ofstream(path_) << text;
   }
-  ~ConfigFile() { fs::remove(path_); }
+  ~ConfigFile() { fs::remove_all(fs::path(path_).parent_path()); }
   const std::string& path() const { return path_; }
 
  private:
