@@ -20,6 +20,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw Error(ErrorCode::cannot_create, cat("cannot make the folder ", folder.string(), ": ", error.message()));
+}
+
 /// What every preset writes, if frames are written.
 struct Files {
   std::vector<std::unique_ptr<io::FileSink>> sinks;
@@ -28,7 +35,7 @@ struct Files {
     for (const Contender& contender : job.contenders) {
       sinks.emplace_back();
       if (!contender.output_path) continue;
-      fs::create_directories(fs::path(contender.output_path(job.frames.front())).parent_path());
+      make_folder(fs::path(contender.output_path(job.frames.front())).parent_path());
       io::SinkOptions options;
       options.path = contender.output_path;
       options.on_note = [&notes](int frame, const std::string& text) {
@@ -90,7 +97,8 @@ void write_text(const fs::path& path, const std::string& text) {
 
 void write_reports(const report::Comparison& comparison, const CompareArgs& args, int64_t page_budget) {
   const fs::path folder(args.output);
-  fs::create_directories(folder);
+  std::error_code none_there;
+  fs::remove(folder / "report.html", none_there);  // a page of other results must not stand beside these
   write_text(folder / "report.json", report::json_text(comparison));
   write_text(folder / "report.csv", report::csv_text(comparison));
   if (args.no_report) return;
@@ -139,8 +147,12 @@ void print_summary(const report::Comparison& comparison) {
 }
 
 int64_t page_budget_of(const std::string& text) {
-  if (const auto size = parse_size(text)) return *size;
-  throw Error(ErrorCode::usage, "--page-budget " + text + " is no size", "a number with K, M or G, such as 24M");
+  const auto size = parse_size(text);
+  if (!size)
+    throw Error(ErrorCode::usage, "--page-budget " + text + " is no size", "a number with K, M or G, such as 24M");
+  if (*size < (1 << 20))
+    throw Error(ErrorCode::usage, "--page-budget " + text + " is too little for any page", "1M or more");
+  return *size;
 }
 
 }  // namespace
@@ -150,16 +162,29 @@ int compare(const CompareArgs& args) {
   CompareJob job = resolve_comparison(args);
   report::ShowOptions show;
   show.display = {args.ocio, args.view_transform};
+  show.has_reference = !job.reference_text.empty();
   show.pixel_aspect = job.input.source->info().pixel_aspect;
   const std::string view_transform = job.pictures ? preview::view_name(show.display) : "";
   log().note(cat(job.input.found.pattern.text(), ": profile ", job.input.producer.profile.name, " (",
                  job.input.producer.why, "), ", job.compared, job.compared == 1 ? " preset" : " presets", ", frames ",
                  io::format_frames(job.frames)));
-  fs::create_directories(args.output);
+  make_folder(args.output);
   ComparedFrames compared(job, show);
-  run_all(job, args, compared);
+  std::exception_ptr failure;
+  try {
+    run_all(job, args, compared);
+  } catch (const Error&) {
+    failure = std::current_exception();  // the reports are of the frames before
+  }
   report::Comparison comparison = compared.take();
-  if (comparison.frames.empty()) end_by_signal(stop_signal());
+  if (comparison.frames.empty()) {
+    if (failure) std::rethrow_exception(failure);
+    end_by_signal(stop_signal());
+  }
+  if (comparison.frames.size() < job.frames.size())
+    comparison.notes.push_back(cat(stop_signal() != 0 ? "stopped by a signal" : "ended by an error",
+                                   ": the reports are of ", comparison.frames.size(), " of ", job.frames.size(),
+                                   " frames"));
   comparison.program = "aftershade " AFTERSHADE_VERSION;
   comparison.view_transform = view_transform;
   comparison.threads = thread_count();
@@ -169,11 +194,9 @@ int compare(const CompareArgs& args) {
     if (!note.empty()) log().note(note);
   }
   print_summary(comparison);
-  if (stop_signal() != 0) {
-    log().note(cat("stopped by a signal: the reports are of ", comparison.frames.size(), " of ", job.frames.size(),
-                   " frames"));
-    end_by_signal(stop_signal());
-  }
+  for (const std::string& note : comparison.notes) log().note(note);
+  if (failure) std::rethrow_exception(failure);
+  if (stop_signal() != 0) end_by_signal(stop_signal());
   return 0;
 }
 

@@ -76,6 +76,11 @@ std::vector<preset::Preset> load_all(const CompareArgs& args) {
                     "name each once; a preset file has the name of its file");
   }
   check_stages(args, met);
+  for (const preset::Preset& preset : presets)
+    if (preset.name.empty() || preset.name == "." || preset.name == ".." || preset.name.starts_with("report."))
+      throw Error(ErrorCode::usage,
+                  cat("\"", preset.name, "\" cannot be the name of a preset here: its frames' folder has it"),
+                  "rename its file");
   return presets;
 }
 
@@ -110,6 +115,14 @@ void open_references(const CompareArgs& args, std::vector<preset::Preset>& prese
     const auto same = [&](const preset::Preset& preset) { return preset.name == reference.name; };
     job.reference = static_cast<size_t>(std::find_if(presets.begin(), presets.end(), same) - presets.begin());
     if (*job.reference == presets.size()) presets.push_back(reference);
+  }
+  bool color = false, ao = false;
+  for (const ScoredSide& side : job.references) {
+    if ((color || !side.color) && (ao || !side.ao))
+      throw Error(ErrorCode::usage, cat("the reference ", side.input.found.pattern.text(), " would not be used"),
+                  "those before it have colour and AO already, or it has neither");
+    color = color || side.color;
+    ao = ao || side.ao;
   }
   job.reference_text = join(args.references, ", ");
 }
@@ -226,8 +239,11 @@ CompareJob resolve_comparison(const CompareArgs& args) {
   const bool only_writes = args.no_report && args.sheet.empty() && contains(args.metrics, "none");
   job.write_ao = args.write_frames && args.ao;
   if (job.write_ao || !only_writes) job.ao_channel = ao_channel_for(job.input.source->info());
-  for (const preset::Preset& preset : presets)
+  for (const preset::Preset& preset : presets) {
     job.contenders.push_back(contender_of(preset, job.input, job.ao_channel));
+    if (job.write_ao && !job.contenders.back().views.front().makes_ao())
+      log().warning(cat("preset ", preset.name, " makes no AO at full resolution: its frames have none"));
+  }
   choose_frames(args, job);
   choose_metrics(args, job);
   if (!args.mask.empty()) {

@@ -24,7 +24,7 @@ void add_comparison(std::vector<Option<Args>>& t) {
                "what results should be: a preset, whose result on the same frames counts, or a sequence with colour, "
                "AO or both; may be repeated, for colour and AO in sequences of their own"});
   t.push_back({"--metric", "NAME", &Args::metrics,
-               "a score, see aftershade-score(1); may be repeated; none: no scores; by default all that there can be"});
+               "a score, see METRICS; may be repeated; none: no scores; by default all that there can be"});
   t.push_back({"--mask", "MASK", &Args::mask,
                "scores count where it is above 0.5: alpha, a channel, cryptomatte:OBJECT or cryptomatte:LAYER/OBJECT"});
   t.push_back({"--mask-from", "INPUT", &Args::mask_from, "the sequence with the mask, INPUT by default"});
@@ -72,6 +72,10 @@ const std::vector<Option<CompareArgs>>& compare_options() {
     add_comparison(t);
     add_outcome(t);
     add_input(t);
+    for (Option<Args>& option : t)
+      if (option.names == "--view")
+        option.doc =
+            "a view of a multi-view file; may be repeated: the first is compared, all are written; all by default";
     add_common(t);
     return t;
   }();

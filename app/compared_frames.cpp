@@ -26,6 +26,12 @@ std::vector<std::string> names_on_sheet(const CompareJob& job) {
   return names;
 }
 
+/// What waits for other presets does not belong to this one's memory.
+void make_own(SidePlanes& planes) {
+  for (Plane& plane : planes.color) plane.make_own();
+  planes.ao.make_own();
+}
+
 /// The stages' medians over the frames, in the order of the first frame.
 std::vector<report::StageCost> median_cost(const std::vector<report::FrameResult>& frames) {
   std::vector<report::StageCost> out;
@@ -35,9 +41,8 @@ std::vector<report::StageCost> median_cost(const std::vector<report::FrameResult
     for (const report::FrameResult& frame : frames)
       for (const report::StageCost& cost : frame.cost)
         if (cost.id == stage.id) times.push_back(cost.milliseconds);
-    const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-    std::nth_element(times.begin(), middle, times.end());
-    out.push_back({stage.id, *middle});
+    std::sort(times.begin(), times.end());
+    out.push_back({stage.id, 0.5 * (times[(times.size() - 1) / 2] + times[times.size() / 2])});
   }
   return out;
 }
@@ -51,7 +56,7 @@ class ComparedFrames::Tap final : public FrameSource {
   std::optional<Frame> load(int number, const std::string& view, RoleSet roles, bool with_layers) override {
     if (view != frames_.job_.view) return source_.load(number, view, roles, with_layers);
     if (frames_.job_.geometry) roles.insert({Role::depth, Role::velocity_prev, Role::velocity_next});
-    auto frame = source_.load(number, view, roles, with_layers || looks(frames_.job_));
+    auto frame = source_.load(number, view, roles, with_layers || (looks(frames_.job_) && frames_.is_compared(number)));
     if (frame) frames_.add_input(*frame);
     return frame;
   }
@@ -83,7 +88,11 @@ class ComparedFrames::Sink final : public FrameSink {
 };
 
 ComparedFrames::ComparedFrames(const CompareJob& job, const report::ShowOptions& show)
-    : job_(job), tap_(std::make_unique<Tap>(*this, *job.input.source)), frames_(job.compared), memory_(job.compared) {
+    : job_(job),
+      tap_(std::make_unique<Tap>(*this, *job.input.source)),
+      frames_(job.compared),
+      cost_(job.compared),
+      memory_(job.compared) {
   if (!job.metrics.empty())
     for (size_t i = 0; i < job.compared; ++i) scorers_.emplace_back(job.metrics);
   const Window display = job.input.source->info().display_window;
@@ -100,15 +109,16 @@ std::unique_ptr<FrameSink> ComparedFrames::sink(size_t contender, FrameSink* fil
 
 void ComparedFrames::add_input(const Frame& frame) {
   if (!looks(job_)) return;
-  const std::lock_guard lock(mutex_);
   const bool follows = before_ && before_->number == frame.number - 1;
-  if (std::binary_search(job_.frames.begin(), job_.frames.end(), frame.number)) {
-    Waiting& waiting = waiting_[frame.number];
+  if (is_compared(frame.number)) {
+    Waiting waiting;
     waiting.results.resize(job_.contenders.size());
     waiting.input = shared(frame);
     if (job_.geometry) waiting.geometry = geometry_of(frame, follows ? &*before_ : nullptr);
     for (auto& planes : waiting.input->roles) planes.clear();
     waiting.input->file.reset();
+    const std::lock_guard lock(mutex_);
+    waiting_.emplace(frame.number, std::move(waiting));
   }
   before_ = shared(frame);
   before_->layers.clear();
@@ -116,20 +126,29 @@ void ComparedFrames::add_input(const Frame& frame) {
 }
 
 void ComparedFrames::add_result(size_t contender, int number, const Frame& frame) {
+  if (const auto waiting = with_result(contender, number, frame))
+    with_context(cat("frame ", number), [&] { finish(number, *waiting); });
+}
+
+/// The frame, once every contender has finished it. No lock is held where rows are waited for.
+std::unique_ptr<ComparedFrames::Waiting> ComparedFrames::with_result(size_t contender, int number, const Frame& frame) {
   const std::lock_guard lock(mutex_);
-  if (contender < job_.compared) frames_[contender][number].number = number;
+  if (++finished_[number] == job_.contenders.size())
+    for (auto& frames : frames_) frames[number].number = number;
   const auto found = waiting_.find(number);
-  if (found == waiting_.end()) return;
-  const auto ao = frame.added.find(ao_channel());
+  if (found == waiting_.end()) return nullptr;
   Waiting& waiting = found->second;
-  waiting.results[contender] = side_planes(frame, ao == frame.added.end() ? Plane() : ao->second.shared(),
-                                           *job_.input.found.sequence.path(number));
+  const auto ao = frame.added.find(ao_channel());
+  SidePlanes result = side_planes(frame, ao == frame.added.end() ? Plane() : ao->second.shared(),
+                                  *job_.input.found.sequence.path(number));
   // A preset without motion blur and AO apart leaves the layers alone, and they were not loaded for it.
-  if (waiting.results[contender]->color[0].empty())
-    waiting.results[contender]->color = side_planes(*waiting.input, Plane(), "").color;
-  if (++waiting.done < job_.contenders.size()) return;
-  with_context(cat("frame ", number), [&] { finish(number, waiting); });
+  if (result.color[0].empty()) result.color = side_planes(*waiting.input, Plane(), "").color;
+  if (job_.measure) make_own(result);
+  waiting.results[contender] = std::move(result);
+  if (finished_[number] < job_.contenders.size()) return nullptr;
+  auto done = std::make_unique<Waiting>(std::move(waiting));
   waiting_.erase(found);
+  return done;
 }
 
 SidePlanes ComparedFrames::reference_of(int number, const Waiting& waiting) const {
@@ -177,10 +196,14 @@ void ComparedFrames::show(int number, const Waiting& waiting, const SidePlanes& 
   worst_->offer(number, results, pixels_of(reference, color), pixels_of(input, color));
 }
 
+bool ComparedFrames::is_compared(int number) const {
+  return std::binary_search(job_.frames.begin(), job_.frames.end(), number);
+}
+
 void ComparedFrames::add_cost(const pipeline::Progress& progress) {
   if (!progress.written || progress.program >= job_.compared || !job_.measure) return;
   const std::lock_guard lock(mutex_);
-  std::vector<report::StageCost>& cost = frames_[progress.program][progress.number].cost;
+  std::vector<report::StageCost>& cost = cost_[progress.program][progress.number];
   cost.push_back({"read", progress.read_milliseconds});
   for (const auto& time : progress.reports.front().times) cost.push_back({time.id, time.milliseconds});
   memory_[progress.program] = static_cast<int64_t>(progress.memory_bytes);
@@ -195,7 +218,10 @@ report::Comparison ComparedFrames::take() {
   for (size_t i = 0; i < job_.compared; ++i) {
     report::Candidate& candidate = out.candidates.emplace_back();
     candidate.preset = job_.contenders[i].preset;
-    for (auto& [number, result] : frames_[i]) candidate.frames.push_back(std::move(result));
+    for (auto& [number, result] : frames_[i]) {
+      result.cost = std::move(cost_[i][number]);
+      candidate.frames.push_back(std::move(result));
+    }
     if (i < scorers_.size()) candidate.sequence = scorers_[i].sequence();
     candidate.cost = median_cost(candidate.frames);
     candidate.memory_bytes = memory_[i];

@@ -39,11 +39,12 @@ class ComparedFrames {
     std::optional<Frame> input;
     GeometryPlanes geometry;
     std::vector<std::optional<SidePlanes>> results;
-    size_t done = 0;
   };
   std::string ao_channel() const { return job_.ao_channel.value_or(""); }
   void add_input(const Frame& frame);
   void add_result(size_t contender, int number, const Frame& frame);
+  std::unique_ptr<Waiting> with_result(size_t contender, int number, const Frame& frame);
+  bool is_compared(int number) const;
   void finish(int number, Waiting& waiting);
   SidePlanes reference_of(int number, const Waiting& waiting) const;
   void show(int number, const Waiting& waiting, const SidePlanes& reference);
@@ -57,7 +58,9 @@ class ComparedFrames {
   std::vector<metrics::SequenceScorer> scorers_;
   std::optional<report::WorstFrames> worst_;
   std::optional<ComparisonSheet> sheet_;
-  std::vector<std::map<int, report::FrameResult>> frames_;  ///< one map a compared preset
+  std::map<int, size_t> finished_;                          ///< by how many contenders
+  std::vector<std::map<int, report::FrameResult>> frames_;  ///< those that all have finished; one map a compared preset
+  std::vector<std::map<int, std::vector<report::StageCost>>> cost_;
   std::vector<int64_t> memory_;
 };
 

@@ -1,5 +1,6 @@
 #include "app/mask.h"
 
+#include "app/log.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/channel_names.h"
@@ -32,6 +33,15 @@ MaskReader::MaskReader(const std::string& spec, const Input& input, const std::s
 }
 
 Plane MaskReader::load(int frame) const {
+  Plane mask = read(frame);
+  for (int y = 0; y < mask.height(); ++y)
+    for (int x = 0; x < mask.width(); ++x)
+      if (mask(x, y) > 0.5F) return mask;
+  log().warning(cat("frame ", frame, ": the mask selects no pixel of ", *sequence_.path(frame)));
+  return mask;
+}
+
+Plane MaskReader::read(int frame) const {
   const std::string* path = sequence_.path(frame);
   if (!path)
     throw Error(ErrorCode::no_input, cat("--mask: the sequence has no frame ", frame),

@@ -17,6 +17,8 @@ class MaskReader {
   Plane load(int frame) const;
 
  private:
+  Plane read(int frame) const;
+
   io::Sequence sequence_;
   std::string view_;
   std::optional<io::ChannelRef> channel_;

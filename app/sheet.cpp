@@ -187,6 +187,9 @@ int sheet(const SheetArgs& args) {
   if (!args.after.empty() && (changes || !args.aovs.empty()))
     throw Error(ErrorCode::usage, "two sequences are shown as they are: no preset runs, and no --aov is shown",
                 "give one sequence");
+  if (!to_lower(args.output).ends_with(".png"))
+    throw Error(ErrorCode::usage, cat("-o ", args.output, ": a sheet is a PNG file, and this name does not say so"),
+                "let it end in .png");
   preview::Sheet sheet = !args.after.empty() ? before_and_after(args) : changes ? of_preset(args) : rendered(args);
   const std::string note = preview::write_sheet(std::move(sheet), args.output);
   if (!note.empty()) log().note(note);

@@ -16,9 +16,9 @@ std::shared_ptr<float> storage_of(size_t bytes) {
     return_plane_memory(p, bytes);
     if (account) account->used -= bytes;
   };
-  std::shared_ptr<float> storage(take_plane_memory(bytes), give_back);
+  float* memory = take_plane_memory(bytes);
   if (account) account->add(bytes);
-  return storage;
+  return {memory, give_back};
 }
 }  // namespace
 

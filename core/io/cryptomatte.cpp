@@ -56,8 +56,13 @@ Found find_object(const std::vector<Layer>& layers, const std::string& object) {
   std::vector<std::string> known, holders;
   std::optional<Found> found;
   for (const Layer& layer : layers) {
-    if (object.starts_with(layer.name + "/")) return {&layer, object.substr(layer.name.size() + 1)};
     const std::vector<std::string> names = manifest_names(layer);
+    if (object.starts_with(layer.name + "/")) {
+      const std::string name = object.substr(layer.name.size() + 1);
+      if (names.empty() || std::find(names.begin(), names.end(), name) != names.end()) return {&layer, name};
+      throw Error(ErrorCode::no_input, cat("Cryptomatte ", layer.name, " has no object \"", name, "\""),
+                  did_you_mean(name, names));
+    }
     known.insert(known.end(), names.begin(), names.end());
     if (std::find(names.begin(), names.end(), object) == names.end()) continue;
     holders.push_back(layer.name);

@@ -104,7 +104,8 @@ std::vector<Metric> ao_metrics() {
           [](const Covariance& c) { return c.correlation(); }),
       metric(
           info("ao_ssim", Better::higher,
-               "structural similarity (Wang et al. 2004) of the AO, gaussian window of sigma 1.5"),
+               "structural similarity (Wang et al. 2004) of the AO, gaussian window of sigma 1.5 (at silhouettes it "
+               "reaches into the background)"),
           [](Instant& i) { return ssim_sum(i.frame().ao, i.frame().true_ao, i.mask(Signal::ao)); }, mean),
   };
 }
@@ -152,7 +153,7 @@ class SignalMetrics {
         root_mean_square));
     metrics_.push_back(metric(
         info("flicker_stable", "", Better::lower, kAlone,
-             "mean change of IT along the motion that is not the reference's (without one: all "
+             "mean change of IT along the motion less the reference's, both warped alike (without one: all "
              "change), where surfaces are even"),
         [s](Instant& i) { return mean_sum(i.flicker(s), i.stable()); }, mean));
     metrics_.push_back(metric(

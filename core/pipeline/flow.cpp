@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "core/base/text.h"
+#include "core/image/plane_memory.h"
 #include "core/parallel/rows.h"
 #include "core/pipeline/item.h"
 
@@ -19,8 +20,10 @@ Plane clamped(Plane ao) {
   return ao;
 }
 
-/// Before their pixels change: another preset may have the same ones.
+/// Before their pixels change: another preset may have the same ones. Alone, a preset has no need of that, so it counts
+/// neither as its time nor as its memory.
 void make_own(std::vector<Layer>& layers) {
+  const OnAccount nobodys(nullptr);
   for (Layer& layer : layers)
     for (Plane& plane : layer.planes) plane.make_own();
 }
@@ -65,15 +68,15 @@ bool ViewPipeline::attempt(Item& item, size_t blind, const std::function<void()>
 
 bool ViewPipeline::run_stage(size_t stage, Item& item) {
   Entry& entry = stages_[stage];
+  if (entry.needs.layers) make_own(item.frame.layers);
   const auto start = std::chrono::steady_clock::now();
   const double shared_before = item.work.shared().milliseconds;
   const size_t blind = entry.needs.has_window() ? stage + 1 : stage;  // a window has seen the frame already
-  const bool ok = attempt(item, blind, [&] {
-    if (entry.needs.layers) make_own(item.frame.layers);
-    entry.stage->run(item.work);
-  });
+  const bool ok = attempt(item, blind, [&] { entry.stage->run(item.work); });
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-  if (ok) item.times.push_back({entry.id, time.count() + item.work.shared().milliseconds - shared_before});
+  if (ok)
+    item.times.push_back({entry.id, std::exchange(item.observed_ms, 0.0) + time.count() +
+                                        item.work.shared().milliseconds - shared_before});
   return ok;
 }
 
@@ -92,7 +95,9 @@ void ViewPipeline::advance(ItemPtr item, size_t first) {
 /// The frame is shown to the stage, and waits there if it is to be run; those that waited for it go on.
 void ViewPipeline::halt(ItemPtr item, size_t stage) {
   Entry& entry = stages_[stage];
+  const auto start = std::chrono::steady_clock::now();
   if (!attempt(*item, stage, [&] { entry.stage->observe(item->work); })) return;
+  item->observed_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   const int newest = item->work.frame.number;
   if (stage < item->through)
     entry.waiting.push_back(std::move(item));

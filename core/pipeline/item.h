@@ -17,6 +17,7 @@ struct ViewPipeline::Item {
   size_t through;
   bool written;
   std::vector<FrameReport::StageTime> times;
+  double observed_ms = 0;  ///< what showing it to the stage that it waits at took
   std::optional<Error> error;
 };
 

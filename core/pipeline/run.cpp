@@ -183,10 +183,10 @@ class Run {
   /// The frame could not be read, and nothing of it goes on its way.
   void fail(const std::exception_ptr& failure, const Visit& visit) {
     for (size_t lane = 0; lane < lanes_.size(); ++lane) {
-      if (!visit.programs[lane]) continue;
-      if (!options_.keep_going && (visit.programs[lane]->restarts || !lanes_[lane].follows))
+      const auto& planned = visit.programs[lane];
+      if (!options_.keep_going && (!planned || planned->restarts || !lanes_[lane].follows))
         finish_what_came_before(lane);
-      lanes_[lane].follows = false;
+      if (planned) lanes_[lane].follows = false;
     }
     attempt([&] { std::rethrow_exception(failure); });
   }

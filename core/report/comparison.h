@@ -53,10 +53,11 @@ struct Comparison {
   std::vector<int> frames;
   std::vector<std::string> metrics;  ///< computed ones, in the order of metric_infos()
   std::vector<Candidate> candidates;
-  std::vector<ShownFrame> shown;  ///< by number; empty: no pictures
+  std::vector<ShownFrame> shown;     ///< by number; empty: no pictures
+  std::vector<std::string> notes{};  ///< what a reader must know, such as that frames are missing
 };
 
-/// The whole comparison but its pictures. Numbers that are not finite are null.
+/// The whole comparison but its pictures. A score with nothing to count (NaN) is null, infinite ones are "inf", "-inf".
 std::string json_text(const Comparison& comparison);
 /// A line per preset and frame, and one per preset with "all" in place of the frame: scores, then milliseconds.
 std::string csv_text(const Comparison& comparison);

@@ -18,7 +18,7 @@ std::string field(std::string_view text) {
   return out + "\"";
 }
 
-std::string field(std::optional<double> value) { return value && std::isfinite(*value) ? cat(*value) : ""; }
+std::string field(std::optional<double> value) { return value && !std::isnan(*value) ? cat(*value) : ""; }
 
 std::string line(const std::vector<std::string>& fields) { return join(fields, ",") + "\r\n"; }
 

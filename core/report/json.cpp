@@ -9,7 +9,11 @@ using params::Json;
 
 namespace {
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+/// JSON knows no infinity, but a reader must tell it (equal pictures) from what was not counted.
+Json number(double value) {
+  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+  return std::isnan(value) ? Json(nullptr) : Json(value);
+}
 
 /// In the order of the comparison's metrics; those that were not computed are left out.
 Json scores_of(const metrics::Scores& scores, const std::vector<std::string>& names) {
@@ -97,6 +101,7 @@ Json json_of(const Comparison& comparison) {
           {"display", window_of(comparison.display)},
           {"frames", comparison.frames},
           {"metrics", metrics_of(comparison.metrics)},
+          {"notes", comparison.notes},
           {"presets", std::move(presets)},
           {"shown", shown_of(comparison.shown)}};
 }

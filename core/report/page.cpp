@@ -97,7 +97,7 @@ std::string filled(std::string_view text, const std::vector<std::pair<std::strin
 std::string page_with(const Comparison& comparison, const std::vector<std::string>& notes, const std::string& shown) {
   Json data = json_of(comparison);
   data.erase("shown");
-  data["notes"] = notes;
+  for (const std::string& note : notes) data["notes"].push_back(note);
   data["docs"] = parameter_docs(comparison);
   std::string script;
   for (const std::string_view name : kScripts) script += page_file(name);

@@ -63,7 +63,7 @@ void WorstFrames::offer(int number, const std::vector<Pixels>& candidates, const
                         const Pixels& input) {
   std::vector<const Pixels*> pictures;
   for (const Pixels& candidate : candidates) pictures.push_back(&candidate);
-  if (!reference.empty()) pictures.push_back(&reference);
+  if (options_.has_reference || !reference.empty()) pictures.push_back(&reference);
   pictures.push_back(&input);
   for (const Pixels* picture : pictures) check(*picture, display_);
 

@@ -20,6 +20,7 @@ struct ShowOptions {
   size_t max_bytes = size_t{512} << 20;  ///< of pictures held; fewer frames are kept, but at least one
   int whole_width_px = 960;              ///< wider frames are scaled down to it
   int region_px = 640;                   ///< greatest width and height of a region
+  bool has_reference = false;            ///< its place is kept where a frame has no picture of it
   float pixel_aspect = 1;                ///< whole frames are shown with square pixels, regions pixel by pixel
 };
 

@@ -86,8 +86,8 @@ CostTable cost_table_of(const Json& json, std::string_view where) {
   return with_context(where, [&] {
     try {
       return table_of(json);
-    } catch (const Json::exception& error) {
-      throw Error(ErrorCode::config, cat("is not a cost table: ", error.what()),
+    } catch (const Json::exception&) {
+      throw Error(ErrorCode::config, "this is no cost table",
                   "give the FILE.front.json that an earlier aftershade tune has written");
     }
   });

@@ -38,6 +38,7 @@ Axis axis_of(const params::Record& record, double value, std::optional<params::R
   if (bounds->min < record.range.min || bounds->max > record.range.max)
     fail(where, record, cat(": ", bounds->min, " to ", bounds->max, " leaves its range ", params::domain_text(record)),
          record.doc);
+  if (integer) bounds = {std::ceil(bounds->min), std::floor(bounds->max)};
   if (!(bounds->min < bounds->max))
     fail(where, record, cat(": there is nothing to search from ", bounds->min, " to ", bounds->max),
          "write KEY=MIN:MAX");

@@ -1,5 +1,6 @@
 // Scores beside those of other people's programs, on the same pixels: OpenImageIO's idiff, and scikit-image.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
@@ -19,11 +20,12 @@ namespace {
 namespace fs = std::filesystem;
 constexpr int kWidth = 97, kHeight = 61;
 
-fs::path folder() {
-  const fs::path out = fs::path(testing::TempDir()) / "independent-scores";
-  fs::create_directories(out);
-  return out;
-}
+/// A folder of this process, since tests run side by side, that goes with the object.
+struct Scratch {
+  const fs::path folder = fs::path(testing::TempDir()) / ("independent-scores-" + std::to_string(getpid()));
+  Scratch() { fs::create_directories(folder); }
+  ~Scratch() { fs::remove_all(folder); }
+};
 
 /// What a command prints; "" when it fails to start or ends with a status above `most`.
 std::string output_of(const std::string& command, int most) {
@@ -79,7 +81,8 @@ double number_after(const std::string& text, const std::string& label) {
 
 TEST(IndependentScores, AreThoseOfIdiffToFiveDigits) {
   if (!runs("idiff --help")) GTEST_SKIP() << "idiff is not installed (Debian: openimageio-tools)";
-  const fs::path a = folder() / "a.exr", b = folder() / "b.exr";
+  const Scratch scratch;
+  const fs::path a = scratch.folder / "a.exr", b = scratch.folder / "b.exr";
   for (const float noise : {0.1F, 0.6F}) {
     const Pair pair(noise);
     write_rgb(pair.a, a);
@@ -109,10 +112,11 @@ TEST(IndependentScores, AreThatOfScikitImage) {
     GTEST_SKIP() << "scikit-image is not installed (Debian: python3-skimage)";
   std::string command =
       cat(python, " '" AFTERSHADE_SOURCE_DIR "/tests/metrics/skimage_ssim.py' ", kWidth, " ", kHeight);
+  const Scratch scratch;
   std::vector<double> ours;
   const auto add = [&](const Plane& left, const Plane& right) {
     for (const auto& [plane, side] : {std::pair(&left, "a"), std::pair(&right, "b")}) {
-      const fs::path path = folder() / cat(side, ours.size(), ".raw");
+      const fs::path path = scratch.folder / cat(side, ours.size(), ".raw");
       write_raw(*plane, path);
       command += cat(" '", path.string(), "'");
     }

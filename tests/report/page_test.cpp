@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -54,10 +55,12 @@ std::vector<unsigned char> from_base64(const std::string& text) {
 
 /// What a reader of the page does: the picture's PNG plus its base, modulo 256. read_png() wants colour.
 std::vector<uint8_t> unpacked(const Json& set, size_t index) {
-  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "aftershade-page-test.png";
+  const std::filesystem::path path =
+      std::filesystem::path(testing::TempDir()) / ("aftershade-page-test-" + std::to_string(getpid()) + ".png");
   const auto bytes = from_base64(set[index]["png"].get<std::string>());
   std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
   std::vector<uint8_t> pixels = read_png(path.string()).pixels;
+  std::filesystem::remove(path);
   const int base = set[index]["base"].get<int>();
   if (base < 0) return pixels;
   const std::vector<uint8_t> other = unpacked(set, static_cast<size_t>(base));

@@ -85,12 +85,14 @@ TEST(ReportJson, WhatWasNotMeasuredIsNull) {
   SampleOptions options;
   options.reference = options.cost = false;
   report::Comparison comparison = sample_comparison(options);
-  comparison.candidates[0].sequence["flicker_stable"] = std::numeric_limits<double>::infinity();
+  comparison.candidates[0].sequence["flicker_stable"] = std::numeric_limits<double>::quiet_NaN();
+  comparison.candidates[1].sequence["flicker_stable"] = std::numeric_limits<double>::infinity();
   const Json json = Json::parse(json_text(comparison));
   EXPECT_TRUE(json["reference"].is_null());
   EXPECT_TRUE(json["presets"][0]["cost"].is_null());
   EXPECT_TRUE(json["presets"][0]["memory_bytes"].is_null());
   EXPECT_TRUE(json["presets"][0]["scores"]["flicker_stable"].is_null());
+  EXPECT_EQ(json["presets"][1]["scores"]["flicker_stable"], "inf");
 }
 
 TEST(ReportCsv, ALinePerFrameAndOneForAll) {

@@ -93,9 +93,9 @@ TEST(CostTable, WhatIsNoTableIsSaid) {
     breaks(json);
     return error_of([&] { cost_table_of(json, "x.json"); });
   };
-  EXPECT_NE(broken([](auto& j) { j = 3; }).find("x.json: is not a cost table"), std::string::npos);
-  EXPECT_NE(broken([](auto& j) { j.erase("curves"); }).find("is not a cost table"), std::string::npos);
-  EXPECT_NE(broken([](auto& j) { j["threads"] = "two"; }).find("is not a cost table"), std::string::npos);
+  EXPECT_NE(broken([](auto& j) { j = 3; }).find("x.json: this is no cost table"), std::string::npos);
+  EXPECT_NE(broken([](auto& j) { j.erase("curves"); }).find("this is no cost table"), std::string::npos);
+  EXPECT_NE(broken([](auto& j) { j["threads"] = "two"; }).find("this is no cost table"), std::string::npos);
   EXPECT_NE(broken([](auto& j) { j["cost"]["milliseconds"] = -1; }).find("not positive"), std::string::npos);
   EXPECT_NE(broken([](auto& j) { j["curves"][0]["costs"][1]["value"] = 2; }).find("do not rise"), std::string::npos);
   EXPECT_NE(broken([](auto& j) { j["base"]["taps"] = "8"; }).find("taps has no number"), std::string::npos);

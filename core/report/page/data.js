@@ -30,6 +30,7 @@ const finite = (values) => values.filter(isNumber);
 
 /** Four digits that count; no exponent where a person would not write one. */
 function formatted(value) {
+  if (Math.abs(value) === Infinity) return value > 0 ? '∞' : '−∞';
   if (!isNumber(value)) return '–';
   const size = Math.abs(value);
   if (value === 0) return '0';
@@ -54,14 +55,20 @@ const direction = {lower: 'less is better', higher: 'more is better', zero: 'nea
 
 /** How bad a value is: the smaller the better, whichever way the metric points. */
 function badness(metric, value) {
-  if (!isNumber(value)) return Infinity;
+  if (typeof value !== 'number') return Infinity;
   if (metric.better === 'higher') return -value;
   return metric.better === 'zero' ? Math.abs(value) : value;
 }
 
 const totalCost = (cost) => (cost && cost.length > 0 ? cost.reduce((sum, stage) => sum + (stage.ms ?? 0), 0) : null);
 
+/** JSON spells infinity as text. */
+const asNumbers = (scores) => Object.fromEntries(Object.entries(scores ?? {}).map(
+  ([name, value]) => [name, value === 'inf' ? Infinity : value === '-inf' ? -Infinity : value]));
+
 report.presets.forEach((preset, index) => {
+  preset.scores = asNumbers(preset.scores);
+  for (const frame of preset.frames) frame.scores = asNumbers(frame.scores);
   preset.index = index;
   preset.total = totalCost(preset.cost);
   for (const frame of preset.frames) frame.total = totalCost(frame.cost);

@@ -21,7 +21,7 @@ const results = (() => {
       title: `${metric.doc || titleOf(metric)} – ${direction[metric.better]}`,
       order: (preset) => badness(metric, preset.scores[metric.name]),
       cell: (preset) => {
-        const value = preset.scores[metric.name], isBest = report.presets.length > 1 && isNumber(value) && badness(metric, value) === best;
+        const value = preset.scores[metric.name], isBest = report.presets.length > 1 && typeof value === 'number' && badness(metric, value) === best;
         return el('td', {class: isBest ? 'number best' : 'number', title: isBest ? 'the best of all' : null}, formatted(value));
       },
     };
