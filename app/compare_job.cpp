@@ -4,7 +4,9 @@
 #include <filesystem>
 
 #include "app/log.h"
+#include "app/memory.h"
 #include "core/base/error.h"
+#include "core/base/memory_limit.h"
 #include "core/base/text.h"
 #include "core/pipeline/named_channels.h"
 
@@ -152,6 +154,17 @@ Contender contender_of(const preset::Preset& preset, const Input& input, const s
   return out;
 }
 
+void add_contenders(const CompareArgs& args, const std::vector<preset::Preset>& presets, CompareJob& job) {
+  const bool only_writes = args.no_report && args.sheet.empty() && contains(args.metrics, "none");
+  job.write_ao = args.ao;
+  if (job.write_ao || !only_writes) job.ao_channel = ao_channel_for(job.input.source->info());
+  for (const preset::Preset& preset : presets) {
+    job.contenders.push_back(contender_of(preset, job.input, job.ao_channel));
+    if (job.write_ao && !job.contenders.back().views.front().makes_ao())
+      log().warning(cat("preset ", preset.name, " makes no AO at full resolution: its frames have none"));
+  }
+}
+
 /// The frames that every reference has too.
 void choose_frames(const CompareArgs& args, CompareJob& job) {
   job.frames = job.input.frames;
@@ -198,6 +211,15 @@ void choose_metrics(const CompareArgs& args, CompareJob& job) {
   }
 }
 
+void choose_mask(const CompareArgs& args, CompareJob& job) {
+  if (args.mask.empty() && !args.mask_from.empty())
+    throw Error(ErrorCode::usage, "--mask-from without --mask", "--mask alpha, or a channel, or cryptomatte:NAME");
+  if (args.mask.empty()) return;
+  const bool own = args.mask_from.empty();
+  const Input from = own ? open_input(args) : open_input(beside(args, args.mask_from));
+  job.mask.emplace(args.mask, from, own ? job.view : from.views.front());
+}
+
 void choose_outputs(const CompareArgs& args, CompareJob& job) {
   check_folder(args.output.ends_with('/') ? args.output.substr(0, args.output.size() - 1) : args.output);
   const fs::path folder(args.output);
@@ -222,6 +244,26 @@ void choose_sheet(const CompareArgs& args, CompareJob& job) {
   job.sheet = sheet_plan(args, job.frames, info.display_window, info.pixel_aspect);
 }
 
+int look_ahead(const Contender& contender) {
+  int frames = 0;
+  for (const pipeline::Dependency& stage : contender.views.front().dependencies()) frames += stage.frames_after;
+  return frames;
+}
+
+/// A frame's results wait until all have finished it.
+void warn_of_waiting(const CompareJob& job) {
+  constexpr int64_t kPlanes = 4;  // colour and AO
+  const auto farthest = std::max_element(job.contenders.begin(), job.contenders.end(),
+                                         [](const auto& a, const auto& b) { return look_ahead(a) < look_ahead(b); });
+  const Window display = job.input.source->info().display_window;
+  const int64_t plane = int64_t{display.width()} * display.height() * static_cast<int64_t>(sizeof(float));
+  const int64_t waiting = look_ahead(*farthest) * static_cast<int64_t>(job.contenders.size()) * kPlanes * plane;
+  if (job.ao_channel && waiting > memory_limit(""))
+    log().warning(cat("results of ", look_ahead(*farthest), " frames wait for preset ", farthest->preset.name,
+                      ", which looks so far ahead: ", size_text(waiting),
+                      ", more than half the machine's memory; compare it in a run of its own"));
+}
+
 }  // namespace
 
 CompareJob resolve_comparison(const CompareArgs& args) {
@@ -230,29 +272,16 @@ CompareJob resolve_comparison(const CompareArgs& args) {
   CompareJob job;
   std::vector<preset::Preset> presets = load_all(args);
   open_references(args, presets, job);
-  InputArgs input = args;
-  job.input = open_input(input, named_channels(presets));
+  job.input = open_input(args, named_channels(presets));
   job.view = job.input.views.front();
   if (!args.write_frames) job.input.views.resize(1);
   if (job.input.source->views().size() > 1 && args.views.size() != 1)
     log().note(cat(args.input, " has several views: view ", job.view, " is compared"));
-  const bool only_writes = args.no_report && args.sheet.empty() && contains(args.metrics, "none");
-  job.write_ao = args.write_frames && args.ao;
-  if (job.write_ao || !only_writes) job.ao_channel = ao_channel_for(job.input.source->info());
-  for (const preset::Preset& preset : presets) {
-    job.contenders.push_back(contender_of(preset, job.input, job.ao_channel));
-    if (job.write_ao && !job.contenders.back().views.front().makes_ao())
-      log().warning(cat("preset ", preset.name, " makes no AO at full resolution: its frames have none"));
-  }
+  add_contenders(args, presets, job);
+  warn_of_waiting(job);
   choose_frames(args, job);
   choose_metrics(args, job);
-  if (!args.mask.empty()) {
-    const bool own = args.mask_from.empty();
-    const Input from = own ? open_input(args) : open_input(beside(args, args.mask_from));
-    job.mask.emplace(args.mask, from, own ? job.view : from.views.front());
-  } else if (!args.mask_from.empty()) {
-    throw Error(ErrorCode::usage, "--mask-from without --mask", "--mask alpha, or a channel, or cryptomatte:NAME");
-  }
+  choose_mask(args, job);
   choose_outputs(args, job);
   choose_sheet(args, job);
   job.preroll = preroll_of(args.preroll);
