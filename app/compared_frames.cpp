@@ -128,13 +128,14 @@ void ComparedFrames::add_input(const Frame& frame) {
 void ComparedFrames::add_result(size_t contender, int number, const Frame& frame) {
   if (const auto waiting = with_result(contender, number, frame))
     with_context(cat("frame ", number), [&] { finish(number, *waiting); });
+  if (finished_[number] == job_.contenders.size())
+    for (auto& frames : frames_) frames[number].number = number;
 }
 
 /// The frame, once every contender has finished it. No lock is held where rows are waited for.
 std::unique_ptr<ComparedFrames::Waiting> ComparedFrames::with_result(size_t contender, int number, const Frame& frame) {
   const std::lock_guard lock(mutex_);
-  if (++finished_[number] == job_.contenders.size())
-    for (auto& frames : frames_) frames[number].number = number;
+  ++finished_[number];
   const auto found = waiting_.find(number);
   if (found == waiting_.end()) return nullptr;
   Waiting& waiting = found->second;
@@ -172,12 +173,13 @@ void ComparedFrames::finish(int number, Waiting& waiting) {
   const SidePlanes reference = reference_of(number, waiting);
   const bool has_reference = !job_.reference_text.empty();
   const Plane mask = job_.mask ? job_.mask->load(number) : Plane();
+  std::vector<metrics::Scores> scores;  // all or none, so that a frame that fails is not told half
   for (size_t i = 0; i < scorers_.size(); ++i)
-    frames_[i][number].scores =
-        scorers_[i].add(scored_frame(number, *waiting.results[i], has_reference ? &reference : nullptr,
-                                     job_.geometry ? &waiting.geometry : nullptr, mask));
+    scores.push_back(scorers_[i].add(scored_frame(number, *waiting.results[i], has_reference ? &reference : nullptr,
+                                                  job_.geometry ? &waiting.geometry : nullptr, mask)));
   if (worst_) show(number, waiting, reference);
   if (sheet_ && sheet_->wants(number)) add_to_sheet(number, waiting, reference);
+  for (size_t i = 0; i < scores.size(); ++i) frames_[i][number].scores = std::move(scores[i]);
 }
 
 void ComparedFrames::add_to_sheet(int number, const Waiting& waiting, const SidePlanes& reference) {
